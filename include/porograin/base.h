@@ -1,0 +1,108 @@
+/* base: what every room needs and nothing about particles or physics: option reading with bounds and
+   known names, errors a user can read, one log stage per phase of the step, and a debug assertion. */
+#pragma once
+
+#include <petscviewer.h>
+
+#define PG_VERSION "0.1.0"
+
+/* Debian builds PETSc without debugging, so PetscAssert() does nothing there: an assertion of our own,
+   switched by our build type. */
+#if defined(PG_DEBUG)
+  #define PgAssert(cond, ...)                                                                                          \
+    do {                                                                                                               \
+      if (PetscUnlikely(!(cond))) SETERRQ(PETSC_COMM_SELF, PETSC_ERR_PLIB, __VA_ARGS__);                               \
+    } while (0)
+#else
+  #define PgAssert(cond, ...)                                                                                          \
+    do {                                                                                                               \
+    } while (0)
+#endif
+
+/* Bad input, found by every rank of comm alike (collective): one message, from rank 0, then an error
+   return on all ranks. */
+#define PgInputError(comm, ...)                                                                                        \
+  do {                                                                                                                 \
+    PetscCall(PgReport((comm), __VA_ARGS__));                                                                          \
+    return PETSC_ERR_USER_INPUT;                                                                                       \
+  } while (0)
+#define PgInputCheck(cond, comm, ...)                                                                                  \
+  do {                                                                                                                 \
+    if (PetscUnlikely(!(cond))) PgInputError((comm), __VA_ARGS__);                                                     \
+  } while (0)
+
+/* A run that cannot go on, found by every rank of comm alike (collective). */
+#define PgRunError(comm, ...)                                                                                          \
+  do {                                                                                                                 \
+    PetscCall(PgReport((comm), __VA_ARGS__));                                                                          \
+    return PETSC_ERR_NOT_CONVERGED;                                                                                    \
+  } while (0)
+
+/* Prints "porograin: error: ..." on standard error from rank 0 of comm. Collective. */
+PETSC_EXTERN PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+
+/* Starts PETSc with porograin's error handler (one readable message instead of a call stack; the stack
+   comes back with -error_stack) and its log stages. `about` is the head of -help. Collective on all. */
+PETSC_EXTERN PetscErrorCode PgInitialize(int *argc, char ***argv, const char about[]);
+/* Refuses an argument that belongs to no option, which PETSc would pass over in silence. Collective. */
+PETSC_EXTERN PetscErrorCode PgRefuseStrayArguments(int argc, char *argv[]);
+/* Ends PETSc and returns the exit status that belongs to `err`: 0 done, 2 bad input, 3 failed run,
+   4 file trouble, 1 anything else. An error that only some ranks saw ends the others by MPI_Abort(). */
+PETSC_EXTERN int PgFinalize(PetscErrorCode err);
+
+/* ---- options ---- */
+
+/* Each reads one option inside a PetscOptionsBegin() block, like PetscOptionsReal() and its kin, and
+   besides (1) refuses a value outside [lower, upper] or not finite with a message that names option,
+   value, unit and bound, and (2) remembers the name for PgOptionsCheckUnused(). *value holds the
+   default on entry, which may lie outside the bounds ("of the run"). Collective on the communicator of the block. */
+PETSC_EXTERN PetscErrorCode PgOptionReal(PetscOptionItems *PetscOptionsObject, const char name[], const char text[],
+                                         const char unit[], PetscReal lower, PetscReal upper, PetscReal *value,
+                                         PetscBool *set);
+PETSC_EXTERN PetscErrorCode PgOptionInt(PetscOptionItems *PetscOptionsObject, const char name[], const char text[],
+                                        PetscInt lower, PetscInt upper, PetscInt *value, PetscBool *set);
+PETSC_EXTERN PetscErrorCode PgOptionBool(PetscOptionItems *PetscOptionsObject, const char name[], const char text[],
+                                         PetscBool *value, PetscBool *set);
+/* Exactly `n` finite reals separated by commas. */
+PETSC_EXTERN PetscErrorCode PgOptionReals(PetscOptionItems *PetscOptionsObject, const char name[], const char text[],
+                                          const char unit[], PetscInt n, PetscReal value[], PetscBool *set);
+/* One of `n` words; *value is its index. */
+PETSC_EXTERN PetscErrorCode PgOptionChoice(PetscOptionItems *PetscOptionsObject, const char name[], const char text[],
+                                           PetscInt n, const char *const words[], PetscInt *value, PetscBool *set);
+PETSC_EXTERN PetscErrorCode PgOptionString(PetscOptionItems *PetscOptionsObject, const char name[], const char text[],
+                                           char value[], size_t length, PetscBool *set);
+/* Smallest number that counts as positive: the lower bound of quantities that must be > 0. */
+#define PG_POSITIVE PETSC_MACHINE_EPSILON *PETSC_MACHINE_EPSILON
+
+/* Ends in an error when the command line, an options file or PETSC_OPTIONS holds an option that nobody
+   asked for, naming each with the nearest known name. `probe` (may be NULL) is called to make PETSc
+   objects print their -help into a collector, so that their names are known too. To be called when all
+   objects are set up, before anything is written. Collective. */
+PETSC_EXTERN PetscErrorCode PgOptionsCheckUnused(MPI_Comm comm, PetscErrorCode (*probe)(void *), void *context);
+/* Writes name, default, unit, text of every option met so far as a Markdown table. Collective. */
+PETSC_EXTERN PetscErrorCode PgOptionsWriteTable(MPI_Comm comm, const char file[]);
+
+/* ---- log stages: one for each phase of the step ---- */
+
+typedef enum {
+  PG_STAGE_SETUP,
+  PG_STAGE_LISTS,     /* migration, ghosts, pair lists */
+  PG_STAGE_HALO,      /* ghost values */
+  PG_STAGE_CONTACT,   /* contact forces and moments */
+  PG_STAGE_INTEGRATE, /* velocities and positions of the discs */
+  PG_STAGE_POROSITY,
+  PG_STAGE_GEOMETRY,  /* kernel weights of all pairs */
+  PG_STAGE_PREDICTOR, /* drag and intermediate velocity */
+  PG_STAGE_SOURCE,    /* right-hand side of the pressure equation */
+  PG_STAGE_ASSEMBLE,
+  PG_STAGE_PRESSURE,  /* sweeps or Krylov solve, and the true residual */
+  PG_STAGE_CORRECTOR, /* velocities from the new pressure */
+  PG_STAGE_OUTPUT,
+  PG_STAGE_COUNT
+} PgStage;
+
+PETSC_EXTERN PetscErrorCode PgStagePush(PgStage stage);
+PETSC_EXTERN PetscErrorCode PgStagePop(void);
+/* Wall seconds of this rank spent in `stage` so far (not counting stages pushed inside it). */
+PETSC_EXTERN PetscLogDouble PgStageSeconds(PgStage stage);
+PETSC_EXTERN const char    *PgStageName(PgStage stage);
