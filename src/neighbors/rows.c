@@ -1,0 +1,52 @@
+/* The row list: all partners of each owned disc within the reach of the pair. */
+#include "neighborsimpl.h"
+
+/* Collects the partners of disc i in the scratch row; returns their number. */
+static PetscInt Partners(PgNeighbors neighbors, const PgCellList *cells, const PetscInt id[], PetscInt i,
+                         const PetscReal position[2], PetscReal r, const PetscInt first[3], const PetscInt end[3])
+{
+  PetscInt n = 0;
+
+  for (int k = 0; k < 3; k++) {
+    for (const PgCellDisc *disc = cells->disc + first[k]; disc < cells->disc + end[k]; disc++) {
+      const PetscReal dx = disc->x - position[0], dy = disc->y - position[1];
+      const PetscReal reach = neighbors->wide * PetscMax(r, disc->r) + neighbors->narrow * PetscMin(r, disc->r) +
+                              neighbors->skin;
+      if (dx * dx + dy * dy >= reach * reach || disc->index == i) continue;
+      neighbors->key[n]     = id[disc->index];
+      neighbors->value[n++] = disc->index;
+    }
+  }
+  return n;
+}
+
+PetscErrorCode PgRowsBuild(PgNeighbors neighbors)
+{
+  PgParticles     particles = neighbors->particles;
+  PgCellList      cells;
+  const PetscInt *id;
+  PetscReal      *position, *radius;
+  PetscInt        owned, ghosts, entries = 0;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgParticlesGetSizes(particles, &owned, &ghosts, NULL));
+  PetscCall(PgParticlesGetIds(particles, &id));
+  PetscCall(PgParticlesGetArray(particles, PG_POSITION, &position));
+  PetscCall(PgParticlesGetArray(particles, PG_RADIUS, &radius));
+  PetscCall(PgReserveInts(0, owned + 1, &neighbors->row_ptr_capacity, &neighbors->row_ptr));
+  PetscCall(PgCellListCreate(owned + ghosts, position, radius,
+                             (neighbors->wide + neighbors->narrow) * neighbors->r_max + neighbors->skin, &cells));
+  for (PetscInt i = 0; i < owned; i++) {
+    PetscInt first[3], end[3], n = PgCellListRanges(&cells, position + 2 * i, first, end);
+    PetscCall(PgReserveScratch(neighbors, n));
+    n = Partners(neighbors, &cells, id, i, position + 2 * i, radius[i], first, end);
+    PetscCall(PgSortByKey(n, neighbors->key, neighbors->value));
+    PetscCall(PgReserveInts(entries, entries + n, &neighbors->row_col_capacity, &neighbors->row_col));
+    neighbors->row_ptr[i] = entries;
+    PetscCall(PetscArraycpy(neighbors->row_col + entries, neighbors->value, n));
+    entries += n;
+  }
+  neighbors->row_ptr[owned] = entries;
+  PetscCall(PgCellListDestroy(&cells));
+  PetscFunctionReturn(0);
+}
