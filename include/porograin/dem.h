@@ -1,0 +1,101 @@
+/* dem: the solid phase. Discs with sliding and rolling friction (Li, Chu & Sheng 2007, Eqs. 1-17),
+   plates with prescribed motion, damping, and their motion in time. Knows nothing about water: what the
+   water does to a disc arrives as a force in the field "fluid_force". */
+#pragma once
+
+#include <porograin/neighbors.h>
+
+typedef struct PgDem_s *PgDem;
+
+/* Pair (a, j): n = (x_j - x_a)/|x_j - x_a|, t = (-n_y, n_x), overlap u_N = r_a + r_j - |x_j - x_a|. */
+typedef struct {
+  PetscReal k_n, k_s, k_r; /* normal, sliding, rolling stiffness [N/m], Eqs. 8, 13 */
+  PetscReal k_theta;       /* rolling moment stiffness [N m/rad], Eq. 4 */
+  PetscReal c_n, c_s, c_r; /* dashpots [N s/m], Eqs. 8, 13 */
+  PetscReal c_theta;       /* moment dashpot [N m s/rad], Eq. 4 */
+  PetscReal mu_s, mu_r;    /* friction coefficients of the sliding and rolling force [1], Eqs. 14-17 */
+  PetscReal mu_theta_r;    /* rolling moment arm mu_theta*r [m], Eqs. 5-6 */
+} PgContactParameters;
+
+/* Motion of the pair relative to its contact point, and what it remembers. */
+typedef struct {
+  PetscReal overlap;      /* u_N [m] */
+  PetscReal overlap_rate; /* du_N/dt [m/s] */
+  PetscReal sliding_rate; /* du_s/dt = (v_a - v_j).t + r_a w_a + r_j w_j [m/s] */
+  PetscReal rolling_rate; /* du_r/dt = -(r_a w_a + r_j w_j) [m/s] */
+  PetscReal spin_rate;    /* dth_r/dt = w_a - w_j [rad/s] */
+} PgContactMotion;
+typedef struct {
+  PetscReal f_s, f_r; /* elastic sliding and rolling force [N], Eq. 13 */
+  PetscReal m_r;      /* elastic rolling moment [N m], Eq. 4 */
+} PgContactHistory;
+/* Force F_N n + F_T t on a and its opposite on j; torque r_a F_T + M_r on a, r_j F_T - M_r on j. */
+typedef struct {
+  PetscReal F_N, F_T, M_r; /* [N], [N], [N m] */
+} PgContactForce;
+
+/* The contact law of one touching pair: forces at the end of a step of length dt, history updated.
+   Elastic parts are capped with the force so that springs do not wind up. A pure function. */
+PETSC_EXTERN PgContactForce PgContactLawLi2007(const PgContactParameters *parameters, const PgContactMotion *motion,
+                                               PetscReal dt, PgContactHistory *history);
+
+/* A plate: a horizontal rigid surface that prescribes the vertical velocity of the discs assigned to it
+   (field "plate": 1 + index of the plate, 0 for free discs). Horizontally a disc slips on the plate
+   through a spring k_s on the contact-point displacement, capped by friction times the reaction. */
+typedef struct {
+  char      name[32];
+  PetscReal side;     /* +1: above its discs, -1: below */
+  PetscReal velocity; /* prescribed vertical velocity [m/s] */
+  PetscReal friction; /* coefficient [1] */
+  PetscBool hold;     /* PETSC_TRUE: its discs are fixed altogether (a bed); velocity and friction unused */
+} PgPlate;
+
+/* Registers the fields force, torque, fluid_force, plate, plate_spring, coordination_number, stress and
+   the ragged data contact_history. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemCreate(PgParticles particles, PgNeighbors neighbors, PgDem *dem);
+/* Reads -dem_* and -plate_friction. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemSetFromOptions(PgDem dem);
+PETSC_EXTERN PetscErrorCode PgDemView(PgDem dem, PetscViewer viewer);
+PETSC_EXTERN PetscErrorCode PgDemDestroy(PgDem *dem);
+PETSC_EXTERN PetscErrorCode PgDemGetParameters(PgDem dem, PgContactParameters *parameters);
+PETSC_EXTERN PetscErrorCode PgDemSetParameters(PgDem dem, const PgContactParameters *parameters);
+PETSC_EXTERN PetscErrorCode PgDemSetGravity(PgDem dem, const PetscReal gravity[2]);        /* [m/s2] */
+PETSC_EXTERN PetscErrorCode PgDemSetDamping(PgDem dem, PetscReal local, PetscReal global); /* [1], [1/s] */
+/* plate->friction < 0 takes -plate_friction. */
+PETSC_EXTERN PetscErrorCode PgDemAddPlate(PgDem dem, const PgPlate *plate, PetscInt *index);
+PETSC_EXTERN PetscErrorCode PgDemGetPlate(PgDem dem, PetscInt index, PgPlate *plate);
+PETSC_EXTERN PetscErrorCode PgDemGetPlateCount(PgDem dem, PetscInt *count);
+
+/* Largest stable time step: 2/omega_max, with omega bounded by the stiffest contact when each disc's mass
+   and inertia are shared out among its contacts (sliding with rotation included; Irons' element bound),
+   reduced by the dashpots. PETSC_MAX_REAL without contacts. Needs built lists. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt);
+
+/* One step of velocity Verlet is KickDrift, [list build, halo], Forces, Kick:
+   KickDrift: v += dt/2 F/m, w += dt/2 T/I, x += dt v, rotation += dt w (owned discs).
+   Forces:    contact forces and moments, plates, gravity, fluid_force and damping at the present
+              positions, tangential increments with the half-step velocities; advances the history by dt.
+              Ghost positions, velocities and spins must be current.
+   Kick:      v += dt/2 F/m, w += dt/2 T/I.
+   Forces with dt = 0 evaluates without advancing anything: the start of a run. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemKickDrift(PgDem dem, PetscReal dt);
+PETSC_EXTERN PetscErrorCode PgDemForces(PgDem dem, PetscReal dt);
+PETSC_EXTERN PetscErrorCode PgDemKick(PgDem dem, PetscReal dt);
+
+/* Contact history across a list build: Save before PgNeighborsBuild() puts it into the ragged data (so
+   that it migrates, and checkpoints see it), Restore after it. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemSaveHistory(PgDem dem);
+PETSC_EXTERN PetscErrorCode PgDemRestoreHistory(PgDem dem);
+
+/* Vertical reaction of a plate on its discs, positive when it pushes them [N/m]: from contacts alone,
+   and total (all forces on its discs). Collective. */
+PETSC_EXTERN PetscErrorCode PgDemGetLoad(PgDem dem, PetscInt plate, PetscReal *contact, PetscReal *total);
+/* Fills the fields coordination_number and stress (sum over contacts of f (x) branch vector over the area
+   of the disc's share, tension positive). Collective. */
+PETSC_EXTERN PetscErrorCode PgDemComputeObservables(PgDem dem);
+/* Translational and rotational kinetic energy of all discs [J/m]. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemKineticEnergy(PgDem dem, PetscReal *energy);
+/* Stops the run (error with step, time, particle id, position and values) when a velocity or force is not
+   finite, a disc is faster than -dem_guard_speed, or an overlap exceeds -dem_guard_overlap times the
+   smaller radius. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemGuard(PgDem dem, PetscInt step, PetscReal time);

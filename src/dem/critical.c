@@ -1,0 +1,84 @@
+/* Critical time step. Irons' element bound: split the mass and inertia of every disc among the springs on
+   it; then no frequency of the whole is above the highest frequency of one spring with its shares. */
+#include "demimpl.h"
+
+/* Number of springs that share a disc: touching discs and its plate, or, when no pair of the whole packing
+   touches, all pairs of the list. Collective. */
+static PetscErrorCode CountShares(PgDem dem, const PgContactList *list, const PgDemDiscs *discs, PetscBool *all)
+{
+  PetscInt    owned;
+  PetscReal  *share, *plate;
+  PetscMPIInt touch = 0;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->share, &share));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->plate, &plate));
+  for (PetscInt i = 0; i < owned; i++) {
+    share[i] = plate[i] > 0;
+    for (PetscInt k = list->ptr[i]; k < list->ptr[i + 1]; k++) {
+      const PetscInt a = list->low[list->sum[k] >> 1], j = list->high[list->sum[k] >> 1];
+      PetscReal      n[2];
+
+      if (!PgDemTouching(PgDemPairGeometry(discs, a, j, n), discs->radius[a], discs->radius[j])) continue;
+      share[i] += 1;
+      touch = 1;
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &touch, 1, MPI_INT, MPI_MAX, PgParticlesComm(dem->particles)));
+  *all = (PetscBool)!touch;
+  for (PetscInt i = 0; *all && i < owned; i++) share[i] += (PetscReal)(list->ptr[i + 1] - list->ptr[i]);
+  PetscCall(PgParticlesHalo(dem->particles, 1, &dem->share));
+  PetscFunctionReturn(0);
+}
+
+/* 2/omega (sqrt(1 + zeta^2) - zeta) with omega2 = omega^2 and D = 2 zeta omega, written so that neither has
+   to be positive alone. */
+static PetscReal Limit(PetscReal omega2, PetscReal D)
+{
+  const PetscReal rate = PetscSqrtReal(omega2 + 0.25 * D * D) + 0.5 * D;
+  return rate > 0 ? 2 / rate : PETSC_MAX_REAL;
+}
+
+/* inverse: sum of z/m; swing: sum of r^2 z/I; turn: sum of z/I, over the discs of the spring. The tangential
+   springs and the moment are added up: a bound of their coupled modes. */
+static PetscReal ContactLimit(const PgContactParameters *p, PetscReal inverse, PetscReal swing, PetscReal turn)
+{
+  const PetscReal normal     = Limit(p->k_n * inverse, p->c_n * inverse);
+  const PetscReal tangential = Limit((p->k_s + p->k_r) * (inverse + swing) + p->k_theta * turn,
+                                     (p->c_s + p->c_r) * (inverse + swing) + p->c_theta * turn);
+
+  return PetscMin(normal, tangential);
+}
+
+PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt)
+{
+  PgContactList list;
+  PgDemDiscs    discs;
+  PetscReal    *share, *m, *plate, limit = PETSC_MAX_REAL;
+  PetscInt      owned;
+  PetscBool     all = PETSC_FALSE;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgNeighborsGetContacts(dem->neighbors, &list));
+  PetscCall(PgDemGetDiscs_Private(dem, &discs));
+  PetscCall(CountShares(dem, &list, &discs, &all));
+  PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->share, &share));
+  PetscCall(PgParticlesGetArray(dem->particles, PG_MASS, &m));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->plate, &plate));
+  for (PetscInt k = 0; k < list.count; k++) {
+    const PetscInt  a = list.low[k], j = list.high[k];
+    const PetscReal r_a = discs.radius[a], r_j = discs.radius[j];
+    const PetscReal z_a = share[a] / m[a], z_j = share[j] / m[j]; /* I = m r^2/2 */
+    PetscReal       n[2];
+
+    if (!all && !PgDemTouching(PgDemPairGeometry(&discs, a, j, n), r_a, r_j)) continue;
+    limit = PetscMin(
+        limit, ContactLimit(&dem->parameters, z_a + z_j, 2 * (z_a + z_j), 2 * (z_a / (r_a * r_a) + z_j / (r_j * r_j))));
+  }
+  for (PetscInt i = 0; i < owned; i++)
+    if (plate[i] > 0) limit = PetscMin(limit, Limit(dem->parameters.k_s * 3 * share[i] / m[i], 0));
+  PetscCallMPI(MPI_Allreduce(&limit, dt, 1, MPIU_REAL, MPIU_MIN, PgParticlesComm(dem->particles)));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,141 @@
+/* The guard: stops a run that has gone wrong, and says where. */
+#include "demimpl.h"
+
+typedef enum { FINE, OVERLAP, FAST, NOT_FINITE } Trouble;
+
+/* The worst disc of a rank: by kind of trouble, then by how bad, then by permanent id. */
+typedef struct {
+  Trouble   kind;
+  PetscInt  disc, partner; /* local indices */
+  PetscReal value;         /* overlap fraction, or speed */
+} Offender;
+
+/* What is sent about it. */
+enum { SENT = 10 };
+
+static PetscBool Worse(Trouble kind, PetscReal value, PetscInt id, const Offender *than, const PetscInt ids[])
+{
+  if (kind != than->kind) return (PetscBool)(kind > than->kind);
+  if (value != than->value) return (PetscBool)(value > than->value);
+  return (PetscBool)(id < ids[than->disc]);
+}
+
+static PetscErrorCode WorstDisc(PgDem dem, const PgDemDiscs *discs, const PetscInt id[], Offender *worst)
+{
+  PetscReal *force, *torque;
+  PetscInt   owned;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->force, &force));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->torque, &torque));
+  for (PetscInt i = 0; i < owned; i++) {
+    const PetscReal *x = &discs->position[2 * i], *v = &discs->velocity[2 * i], *f = &force[2 * i];
+    const PetscReal  all[] = {x[0], x[1], v[0], v[1], f[0], f[1], discs->spin[i], torque[i]};
+    Trouble          kind  = FINE;
+    PetscReal        speed = 0;
+
+    for (size_t c = 0; c < sizeof(all) / sizeof(*all); c++)
+      if (PetscIsInfOrNanReal(all[c])) kind = NOT_FINITE;
+    if (kind == FINE) {
+      speed = hypot(v[0], v[1]);
+      if (speed > dem->guard_speed) kind = FAST;
+    }
+    if (kind != FINE && Worse(kind, speed, id[i], worst, id)) *worst = (Offender){kind, i, i, speed};
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WorstPair(PgDem dem, const PgDemDiscs *discs, const PetscInt id[], Offender *worst)
+{
+  PgContactList list;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgNeighborsGetContacts(dem->neighbors, &list));
+  for (PetscInt k = 0; k < list.count; k++) {
+    const PetscInt  a = list.low[k], j = list.high[k];
+    PetscReal       n[2];
+    const PetscReal part = PgDemPairGeometry(discs, a, j, n) / PetscMin(discs->radius[a], discs->radius[j]);
+
+    if (part > dem->guard_overlap && Worse(OVERLAP, part, id[a], worst, id)) *worst = (Offender){OVERLAP, a, j, part};
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WorstKind(MPI_Comm comm, const Offender *mine, Trouble *kind)
+{
+  PetscMPIInt k = (PetscMPIInt)mine->kind;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &k, 1, MPI_INT, MPI_MAX, comm));
+  *kind = (Trouble)k;
+  PetscFunctionReturn(0);
+}
+
+/* Every rank gets the data of the worst disc of all. */
+static PetscErrorCode Agree(PgDem dem, const PgDemDiscs *discs, const PetscInt id[], const Offender *mine, Trouble kind,
+                            PetscReal sent[SENT])
+{
+  MPI_Comm    comm = PgParticlesComm(dem->particles);
+  PetscMPIInt rank, winner;
+  PetscReal  *force, *torque, value = mine->kind == kind ? mine->value : -1, worst;
+  PetscInt    i = mine->disc, mine_id = PETSC_MAX_INT, first;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Allreduce(&value, &worst, 1, MPIU_REAL, MPIU_MAX, comm));
+  if (mine->kind == kind && value == worst) mine_id = id[i];
+  PetscCallMPI(MPI_Allreduce(&mine_id, &first, 1, MPIU_INT, MPI_MIN, comm));
+  winner = mine_id == first ? rank : PETSC_MPI_INT_MAX;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &winner, 1, MPI_INT, MPI_MIN, comm));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->force, &force));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->torque, &torque));
+  if (rank == winner) {
+    const PetscReal *x = &discs->position[2 * i], *v = &discs->velocity[2 * i];
+    const PetscReal  all[SENT] = {
+         (PetscReal)id[i], x[0], x[1], v[0], v[1], discs->spin[i], mine->value, (PetscReal)id[mine->partner], 0, 0};
+
+    PetscCall(PetscArraycpy(sent, all, SENT));
+    if (kind == NOT_FINITE) { /* an owned disc: it has a force */
+      sent[7] = force[2 * i];
+      sent[8] = force[2 * i + 1];
+      sent[9] = torque[i];
+    }
+  }
+  PetscCallMPI(MPI_Bcast(sent, SENT, MPIU_REAL, winner, comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgDemGuard(PgDem dem, PetscInt step, PetscReal time)
+{
+  MPI_Comm        comm  = PgParticlesComm(dem->particles);
+  Offender        worst = {FINE, 0, 0, 0};
+  PgDemDiscs      discs;
+  const PetscInt *id;
+  PetscReal       s[SENT];
+  Trouble         kind;
+  char            where[256];
+
+  PetscFunctionBeginUser;
+  PetscCall(PgDemGetDiscs_Private(dem, &discs));
+  PetscCall(PgParticlesGetIds(dem->particles, &id));
+  PetscCall(WorstDisc(dem, &discs, id, &worst));
+  PetscCall(WorstKind(comm, &worst, &kind));
+  if (kind != NOT_FINITE) { /* distances mean nothing then */
+    PetscCall(WorstPair(dem, &discs, id, &worst));
+    PetscCall(WorstKind(comm, &worst, &kind));
+  }
+  if (kind == FINE) PetscFunctionReturn(0);
+  PetscCall(Agree(dem, &discs, id, &worst, kind, s));
+  PetscCall(PetscSNPrintf(
+      where, sizeof(where),
+      "step %" PetscInt_FMT ", time %g s: disc %" PetscInt_FMT " at (%g, %g) m, velocity (%g, %g) m/s, spin %g rad/s",
+      step, (double)time, (PetscInt)s[0], (double)s[1], (double)s[2], (double)s[3], (double)s[4], (double)s[5]));
+  if (kind == NOT_FINITE)
+    PgRunError(comm, "%s: not finite; force (%g, %g) N/m, torque %g N", where, (double)s[7], (double)s[8],
+               (double)s[9]);
+  if (kind == FAST)
+    PgRunError(comm, "%s: speed %g m/s is above -dem_guard_speed %g", where, (double)s[6], (double)dem->guard_speed);
+  PgRunError(comm, "%s: overlap with disc %" PetscInt_FMT " is %g of the smaller radius, above -dem_guard_overlap %g",
+             where, (PetscInt)s[7], (double)s[6], (double)dem->guard_overlap);
+}
