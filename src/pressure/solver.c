@@ -1,0 +1,168 @@
+/* The Krylov solver and its preconditioner: defaults, the user's options, and when to build anew. */
+#include "pressureimpl.h"
+
+PetscErrorCode PgPressureCreateSolver(PgPressure q, KSP *ksp)
+{
+  PC pc;
+
+  PetscFunctionBeginUser;
+  PetscCall(KSPCreate(q->comm, ksp));
+  PetscCall(KSPSetOptionsPrefix(*ksp, "pressure_"));
+  PetscCall(KSPSetType(*ksp, KSPCG));
+  /* the preconditioned norm, PETSc's default, differs from the residual by up to two digits either way */
+  PetscCall(KSPSetNormType(*ksp, KSP_NORM_UNPRECONDITIONED));
+  PetscCall(KSPSetTolerances(*ksp, 1e-8, PETSC_DEFAULT, PETSC_DEFAULT, 1000));
+  PetscCall(KSPSetInitialGuessNonzero(*ksp, PETSC_TRUE));
+  PetscCall(KSPGetPC(*ksp, &pc));
+#if defined(PETSC_HAVE_HYPRE)
+  PetscCall(PCSetType(pc, PCHYPRE));
+  PetscCall(PCHYPRESetType(pc, "boomeramg"));
+#else
+  PetscCall(PCSetType(pc, PCGAMG));
+#endif
+  PetscFunctionReturn(0);
+}
+
+/* Methods that know one norm only (preonly: none; minres: the preconditioned one) refuse ours, which they then
+   must not be given. PETSc has no question for that, so its answer to KSPGetNormType() is taken. */
+static PetscErrorCode SettleNorm(KSP ksp)
+{
+  KSPNormType    norm;
+  PetscErrorCode refused;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
+  refused = KSPGetNormType(ksp, &norm);
+  PetscCall(PetscPopErrorHandler());
+  if (refused) PetscCall(KSPSetNormType(ksp, KSP_NORM_DEFAULT));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPressureSolverFromOptions(PgPressure q, KSP ksp)
+{
+  PetscBool preonly, user_norm;
+
+  PetscFunctionBeginUser;
+  PetscCall(KSPSetFromOptions(ksp));
+  PetscCall(PetscOptionsHasName(NULL, "pressure_", "-ksp_norm_type", &user_norm));
+  if (!user_norm) PetscCall(SettleNorm(ksp));
+  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &preonly));
+  if (preonly) PetscCall(KSPSetInitialGuessNonzero(ksp, PETSC_FALSE)); /* it knows no guess */
+  (void)q;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPressureCheckSolver(PgPressure q)
+{
+  PetscBool needs_symmetry;
+  KSPType   type;
+
+  PetscFunctionBeginUser;
+  if (q->symmetric) PetscFunctionReturn(0);
+  PgInputCheck(!q->singular, q->comm,
+               "pressure: no disc has a prescribed pressure, and the corrected Laplacian is not symmetric: which "
+               "right-hand sides this singular system can bear is not known; use -sph_laplacian paper, or make a side "
+               "drained (-bc_left drained)");
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)q->ksp, &needs_symmetry, KSPCG, KSPPIPECG, KSPPIPECGRR, KSPPIPELCG,
+                                      KSPPIPEPRCG, KSPPIPECG2, KSPGROPPCG, KSPFCG, KSPPIPEFCG, KSPNASH, KSPSTCG,
+                                      KSPGLTR, KSPQCG, KSPMINRES, KSPSYMMLQ, KSPCR, KSPPIPECR, ""));
+  if (!needs_symmetry) PetscFunctionReturn(0);
+  PetscCall(KSPGetType(q->ksp, &type));
+  PgInputCheck(!q->user_type, q->comm,
+               "option -pressure_ksp_type: %s needs a symmetric matrix, the corrected Laplacian has none; use gmres or "
+               "bcgs, or -sph_laplacian paper",
+               type);
+  PetscCall(KSPSetType(q->ksp, KSPGMRES));
+  PetscCall(PgPressureSolverFromOptions(q, q->ksp));
+  PetscFunctionReturn(0);
+}
+
+/* BoomerAMG solves its coarsest grid by elimination without pivoting. For a singular matrix the last pivot is
+   rounding, and the constant comes back multiplied by 1e16: smoothing there costs nothing and is safe. */
+static PetscErrorCode ChooseCoarseSolver(PgPressure q, PC pc)
+{
+#if defined(PETSC_HAVE_HYPRE)
+  const char *const option = "-pressure_pc_hypre_boomeramg_relax_type_coarse";
+  PetscBool         hypre, boomeramg = PETSC_FALSE, users;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCHYPRE, &hypre));
+  if (hypre) {
+    const char *name;
+    PetscCall(PCHYPREGetType(pc, &name));
+    PetscCall(PetscStrcmp(name, "boomeramg", &boomeramg));
+  }
+  PetscCall(PetscOptionsHasName(NULL, NULL, option, &users));
+  if (!boomeramg || users || q->singular == q->coarse_is_singular) PetscFunctionReturn(0);
+  PetscCall(PetscOptionsSetValue(NULL, option, q->singular ? "symmetric-SOR/Jacobi" : "Gaussian-elimination"));
+  PetscCall(PCSetFromOptions(pc));
+  PetscCall(PetscOptionsClearValue(NULL, option));
+  q->coarse_is_singular = q->singular;
+  PetscFunctionReturn(0);
+#else
+  PetscFunctionBeginUser;
+  (void)q;
+  (void)pc;
+  PetscFunctionReturn(0);
+#endif
+}
+
+PetscErrorCode PgPressureBuildPreconditioner(PgPressure q)
+{
+  PC pc;
+
+  PetscFunctionBeginUser;
+  PetscCall(KSPGetPC(q->ksp, &pc));
+  /* an ordering or coarsening made for another pattern must not survive */
+  if (q->restructured) PetscCall(KSPReset(q->ksp));
+  PetscCall(ChooseCoarseSolver(q, pc));
+  PetscCall(KSPSetReusePreconditioner(q->ksp, PETSC_FALSE));
+  PetscCall(KSPSetOperators(q->ksp, q->A, q->A));
+  PetscCall(KSPSetUp(q->ksp));
+  PetscCall(KSPSetUpOnBlocks(q->ksp));
+  PetscCall(KSPSetReusePreconditioner(q->ksp, PETSC_TRUE));
+  q->built            = PETSC_TRUE;
+  q->stale            = PETSC_FALSE;
+  q->restructured     = PETSC_FALSE;
+  q->served           = 0;
+  q->first_iterations = 0;
+  q->preconditioners++;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPressureKeepPreconditioner(PgPressure q, PetscBool *fresh)
+{
+  PetscBool preonly;
+
+  PetscFunctionBeginUser;
+  /* preonly takes the preconditioner for the inverse: an old one would be the inverse of another matrix */
+  PetscCall(PetscObjectTypeCompare((PetscObject)q->ksp, KSPPREONLY, &preonly));
+  if (!q->built || q->stale || (q->pc_lag && q->served >= q->pc_lag) || (preonly && q->served))
+    PetscCall(PgPressureBuildPreconditioner(q));
+  *fresh = (PetscBool)(q->served == 0);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPressureProbeOptions(void *pressure)
+{
+  PgPressure q = (PgPressure)pressure;
+  KSP        ksp;
+  Mat        A;
+
+  PetscFunctionBeginUser;
+  /* A PETSc object prints its options once only, so fresh ones are asked. */
+  PetscCall(PgPressureCreateSolver(q, &ksp));
+  PetscCall(PgPressureSolverFromOptions(q, ksp));
+  if (q->A) {
+    PetscCall(KSPSetOperators(ksp, q->A, q->A));
+    PetscCall(KSPSetUp(ksp)); /* solvers inside the preconditioner exist only then */
+    PetscCall(KSPSetUpOnBlocks(ksp));
+  }
+  PetscCall(KSPDestroy(&ksp));
+  PetscCall(MatCreate(q->comm, &A));
+  PetscCall(MatSetOptionsPrefix(A, "pressure_"));
+  PetscCall(MatSetType(A, MATAIJ));
+  PetscCall(MatSetFromOptions(A));
+  PetscCall(MatDestroy(&A));
+  PetscFunctionReturn(0);
+}
