@@ -1,0 +1,133 @@
+/* The averaged Navier-Stokes scheme, Eqs. 18-24, 35-55. */
+#include "poreimpl.h"
+
+/* Force of the water on disc a per unit length: drag (Eq. 24), and the pressure gradient where it is not
+   left to the projection. */
+static void ForceOnDiscs(PgPore pore, const PgPoreArrays *s, const PetscReal F[])
+{
+  const PetscBool pressure  = (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE);
+  const PetscBool staggered = (PetscBool)(pressure && pore->coupling_scheme == PG_SCHEME_STAGGERED);
+
+  for (PetscInt a = 0; a < s->owned; a++) {
+    const PetscReal V_p = PETSC_PI * s->radius[a] * s->radius[a], n = s->n[a];
+    for (int i = 0; i < 2; i++) {
+      PetscReal f = -n * F[2 * a + i] * V_p / (1.0 - n);
+      /* a disc on a plate is not projected: its vertical force belongs to the reaction of the plate */
+      const PetscBool on_plate = (PetscBool)(pressure && s->plate[a] != 0.0 && i == 1);
+      if ((staggered || on_plate) && s->detached[a] == 0.0) f -= V_p * pore->grad_p[2 * a + i];
+      if (pressure) f -= V_p * pore->rho_f * pore->gravity[i]; /* buoyancy: the hydrostatic part of -V grad p */
+      s->fluid_force[2 * a + i] = s->detached[a] != 0.0 ? 0.0 : f;
+    }
+  }
+}
+
+/* Q = -(grad p - F)/rho_f of t_n (gravity is in the excess pressure), carried along the characteristic: the (1 - theta) part of Eq. 46. */
+static PetscErrorCode ExplicitForce(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, const PetscReal u_f[],
+                                    PetscReal grad_Q[])
+{
+  const PetscReal weight = (1.0 - pore->theta) * dt_f;
+
+  PetscFunctionBeginUser;
+  for (PetscInt i = 0; i < 2 * s->owned; i++) s->Q[i] = -(pore->grad_p[i] - s->drag[i]) / pore->rho_f;
+  PetscCall(PgParticlesHalo(pore->particles, 1, &pore->Q));
+  PetscCall(PgSphVectorGradient(pore->sph, s->Q, grad_Q));
+  for (PetscInt a = 0; a < s->owned; a++) {
+    const PetscReal cx = (u_f[2 * a] - s->v[2 * a]) * dt_f, cy = (u_f[2 * a + 1] - s->v[2 * a + 1]) * dt_f;
+    for (int i = 0; i < 2; i++)
+      s->u_tilde[2 * a + i] += weight * (s->Q[2 * a + i] - grad_Q[4 * a + 2 * i] * cx - grad_Q[4 * a + 2 * i + 1] * cy);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* XSPH: u~ <- u~ + S (mean of u~ over the kernel - u~). */
+static PetscErrorCode Smooth(PgPore pore, const PgPoreArrays *s)
+{
+  PgSphCoefficients c;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgSphGetCoefficients(pore->sph, &c));
+  PetscCall(PgParticlesHalo(pore->particles, 1, &pore->u_tilde));
+  for (PetscInt a = 0; a < s->owned; a++) {
+    PetscReal sx = 0.0, sy = 0.0;
+    for (PetscInt k = c.ptr[a]; k < c.ptr[a + 1]; k++) {
+      sx += c.weight[k] * (s->u_tilde[2 * c.col[k]] - s->u_tilde[2 * a]);
+      sy += c.weight[k] * (s->u_tilde[2 * c.col[k] + 1] - s->u_tilde[2 * a + 1]);
+    }
+    pore->a[2 * a]     = sx / c.kernel_sum[a];
+    pore->a[2 * a + 1] = sy / c.kernel_sum[a];
+  }
+  for (PetscInt i = 0; i < 2 * s->owned; i++) s->u_tilde[i] += pore->smoothing * pore->a[i];
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
+{
+  PgPoreArrays s;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(PgDragForce(pore, &s, s.u, s.drag));
+  ForceOnDiscs(pore, &s, s.drag);
+  PetscCall(PgSphVectorGradient(pore->sph, s.u, pore->grad_u));
+  PetscCall(PgCharacteristic(pore, &s, dt_f, pore->b, s.p_guess));
+  PetscCall(PetscArraycpy(s.u_tilde, pore->b, 2 * s.owned));
+  if (pore->theta < 1.0) PetscCall(ExplicitForce(pore, &s, dt_f, pore->b, pore->grad_u));
+  if (pore->smoothing > 0.0) PetscCall(Smooth(pore, &s));
+  PetscFunctionReturn(0);
+}
+
+/* Eq. 50; `averaged` continuity adds -rho_f/(theta dt) S with S = -[Dn/Dt + (u~ - v).grad n]/n, and the
+   two-phase projection divides by 1 + (1 - n) rho_f/(n theta rho_s) on discs that it moves. */
+static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
+{
+  const PetscReal scale = pore->rho_f / (pore->theta * dt_f);
+  PgPoreArrays    s;
+  PgField         fields[2] = {pore->u_tilde, pore->drag};
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(PgBoundaryVelocity(pore, &s, s.u_tilde));
+  PetscCall(PgDragForce(pore, &s, s.u_tilde, s.drag));
+  PetscCall(PgParticlesHalo(pore->particles, 2, fields));
+  PetscCall(PgSphDivergence(pore->sph, s.u_tilde, Z));
+  if (pore->continuity == PG_CONTINUITY_AVERAGED) {
+    PetscCall(PgPorosityChange(pore, &s, dt_f, pore->grad_u, pore->a));
+    PetscCall(PgSphGradient(pore->sph, pore->n_flow, pore->b));
+    for (PetscInt a = 0; a < s.owned; a++) {
+      const PetscReal advected = (s.u_tilde[2 * a] - s.v[2 * a]) * pore->b[2 * a] +
+                                 (s.u_tilde[2 * a + 1] - s.v[2 * a + 1]) * pore->b[2 * a + 1];
+      Z[a] += (pore->a[a] + advected) / pore->n_flow[a];
+    }
+  }
+  PetscCall(PgSphDivergence(pore->sph, s.drag, pore->a));
+  for (PetscInt a = 0; a < s.owned; a++) {
+    Z[a] = scale * Z[a] + pore->a[a];
+    if (pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE && pore->coupling_scheme == PG_SCHEME_PROJECTION &&
+        PgPoreIsFree(&s, a))
+      Z[a] /= 1.0 + (1.0 - pore->n_flow[a]) * pore->rho_f / (pore->n_flow[a] * pore->theta * pore->rho_s);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Eq. 47 (with the time step that its first form lacks), and v = v* - dt/rho_s grad p. */
+static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
+{
+  const PetscReal scale   = pore->theta * dt_f / pore->rho_f;
+  const PetscBool project = (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE &&
+                                        pore->coupling_scheme == PG_SCHEME_PROJECTION);
+  PgPoreArrays    s;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreGetArrays(pore, &s));
+  for (PetscInt a = 0; a < s.owned; a++) {
+    const PetscBool moves = (PetscBool)(project && PgPoreIsFree(&s, a));
+    for (PetscInt i = 2 * a; i < 2 * a + 2; i++) {
+      s.u[i] = s.u_tilde[i] - scale * (pore->grad_p[i] - s.drag[i]);
+      if (moves) s.v[i] -= dt_f / pore->rho_s * pore->grad_p[i];
+    }
+  }
+  PetscCall(PgBoundaryVelocity(pore, &s, s.u));
+  PetscFunctionReturn(0);
+}
+
+const PgFluidScheme PgSchemeNavierStokes = {"ns", Predict, Source, Correct};

@@ -1,0 +1,116 @@
+/* What the files of this room share. */
+#pragma once
+
+#include <porograin/pore.h>
+
+typedef enum { PG_POROSITY_RAE, PG_POROSITY_KINEMATIC, PG_POROSITY_KERNEL } PgPorosityKind;
+typedef enum { PG_RATE_KINEMATIC, PG_RATE_SAMPLED } PgPorosityRate;
+typedef enum { PG_CONTINUITY_SOLENOIDAL, PG_CONTINUITY_AVERAGED } PgContinuity;
+typedef enum { PG_COUPLING_DRAG, PG_COUPLING_DRAG_AND_PRESSURE } PgCoupling;
+typedef enum { PG_SCHEME_PROJECTION, PG_SCHEME_STAGGERED } PgCouplingScheme;
+typedef enum { PG_TRACKING_INITIAL, PG_TRACKING_SURFACE } PgTracking;
+typedef enum { PG_GUESS_CHARACTERISTIC, PG_GUESS_LAST } PgGuess;
+
+/* What a fluid scheme does inside the common frame of step.c. */
+typedef struct {
+  const char *name;
+  /* From the state of t_n: intermediate velocity, characteristic pressure, force on the discs. */
+  PetscErrorCode (*predict)(PgPore pore, PetscReal dt_f);
+  /* Right-hand side Z of lap p = Z at t_n+1. */
+  PetscErrorCode (*source)(PgPore pore, PetscReal dt_f, PetscReal Z[]);
+  /* Velocities of water and discs from the new pressure gradient. */
+  PetscErrorCode (*correct)(PgPore pore, PetscReal dt_f);
+} PgFluidScheme;
+
+struct PgPore_s {
+  PgParticles          particles;
+  PgNeighbors          neighbors;
+  PgSph                sph;
+  PgPressure           pressure;
+  PgFluid              fluid;
+  const PgFluidScheme *scheme;
+  const PgDragLaw     *drag_law;
+
+  /* parameters */
+  PetscReal        rho_f;      /* density of the water [kg/m3] */
+  PetscReal        rho_s;      /* density of the discs [kg/m3], Eq. of motion in the two-phase projection */
+  PetscReal        mu;         /* viscosity [N s/m2] */
+  PetscReal        k_p;        /* Darcy permeability [m4/(N s)], Eq. 26 */
+  PetscBool        k_p_local;  /* k_p from the local porosity, Eq. 66 */
+  PetscReal        gravity[2]; /* [m/s2] */
+  PetscReal        p_initial;  /* [Pa] */
+  PetscReal        theta;      /* implicitness of the forces on the water, Eq. 41 */
+  PetscReal        smoothing;  /* fraction of u~ replaced by its kernel mean in each step */
+  PgContinuity     continuity;
+  PgCoupling       coupling;
+  PgCouplingScheme coupling_scheme;
+  PgPorosityKind   porosity_kind;
+  PgPorosityRate   rate_kind;
+  PetscReal        n_min, n_max;
+  PgBoundary       boundary[PG_SIDE_COUNT];
+  PgTracking       tracking;
+  PetscReal        surface_sum, surface_sum_back; /* kernel sums: becomes surface below, stops being above */
+  PetscReal        detach_n, detach_sum;
+  PetscReal        guard_pressure, guard_speed;
+  PgGuess          guess;
+
+  /* fields */
+  PgField porosity, porosity_sample, porosity_initial, porosity_before, rae_area, kernel_start;
+  PgField u, w, p, p_fixed, p_prescribed, u_tilde, p_guess, drag, Q;
+  PgField side, surface, detached, fluid_force, plate, volume, divergence;
+
+  /* scratch by local index, ghosts included; valid inside one call, but grad_p lives from the end of a
+     step to the start of the next */
+  PetscInt   capacity;
+  PetscReal *grad_p; /* (2) of the excess over hydrostatic pressure */
+  PetscReal *grad_u; /* (4) */
+  PetscReal *n_flow; /* (1) porosity, at most detach_n: the one that the flow sees */
+  PetscReal *head;   /* (1) p - rho_f g.x */
+  PetscReal *a, *b;  /* (2), (2) */
+  PetscReal *Z;      /* (1) */
+  PetscInt   grad_p_revision;
+
+  const char *advice; /* what to change, appended to the message of the guard */
+  PgPoreStats stats;
+  PetscInt    clipped, characteristic_failures; /* of this rank in this step */
+};
+
+PETSC_INTERN const PgFluidScheme PgSchemeDarcy, PgSchemeNavierStokes;
+
+/* arrays of one fluid step, fetched once */
+typedef struct {
+  PetscInt   owned, local;
+  PetscReal *x, *v, *radius, *n, *u, *p, *u_tilde, *p_guess, *drag, *Q, *side, *surface, *detached, *plate, *volume;
+  PetscReal *fluid_force, *w;
+  const PetscReal *n_flow;
+} PgPoreArrays;
+PETSC_INTERN PetscErrorCode PgPoreGetArrays(PgPore pore, PgPoreArrays *arrays);
+PETSC_INTERN PetscErrorCode PgPoreReserve(PgPore pore);
+
+PETSC_INTERN PetscErrorCode PgPorosityCalibrate(PgPore pore);
+PETSC_INTERN PetscErrorCode PgPorosityUpdate(PgPore pore, PetscReal dt_f);
+/* div v and Dn/Dt along the discs [1/s], from the velocities v* at the end of the step: kinematic,
+   (1 - n) div v, or the difference of the sampled porosities of both ends. */
+PETSC_INTERN PetscErrorCode PgPorosityChange(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, PetscReal divergence[],
+                                             PetscReal rate[]);
+PETSC_INTERN PetscErrorCode PgPoreVolumes(PgPore pore);
+
+PETSC_INTERN PetscErrorCode PgBoundaryStart(PgPore pore);
+PETSC_INTERN PetscErrorCode PgBoundaryUpdate(PgPore pore);
+/* u.e = v.e (+ w/n on flux sides) on impermeable and flux sides, u = v on detached discs. */
+PETSC_INTERN PetscErrorCode PgBoundaryVelocity(PgPore pore, const PgPoreArrays *s, PetscReal u[]);
+/* Inflow [m/s] through the flux sides of disc a times its width 2r [m2/s]. */
+PETSC_INTERN PetscReal PgBoundaryInflow(PgPore pore, const PgPoreArrays *s, PetscInt a);
+
+/* F^sf on the water at owned discs, zero where detached [N/m3]. */
+PETSC_INTERN PetscErrorCode PgDragForce(PgPore pore, const PgPoreArrays *s, const PetscReal u[], PetscReal F[]);
+PETSC_INTERN PetscReal      PgPermeability(PgPore pore, PetscReal n, PetscReal radius);
+/* u(x_f) = B^-1 u*, Eqs. 38-40, and p(x_f), Eq. 59, from grad_u and grad_p. */
+PETSC_INTERN PetscErrorCode PgCharacteristic(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, PetscReal u_f[],
+                                             PetscReal p_f[]);
+PETSC_INTERN PetscErrorCode PgPressureGradient(PgPore pore);
+
+static inline PetscBool PgPoreIsFree(const PgPoreArrays *s, PetscInt a)
+{
+  return (PetscBool)(s->plate[a] == 0.0 && s->detached[a] == 0.0);
+}

@@ -1,0 +1,306 @@
+/* One fluid step, in the order of the paper's procedure; what the schemes have in common. */
+#include "poreimpl.h"
+#include <math.h>
+
+PetscErrorCode PgPoreReserve(PgPore pore)
+{
+  PetscInt owned, ghosts, local;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgParticlesGetSizes(pore->particles, &owned, &ghosts, NULL));
+  local = owned + ghosts;
+  if (local <= pore->capacity && pore->Z) PetscFunctionReturn(0);
+  pore->capacity = local + local / 8 + 1;
+  PetscCall(PetscFree5(pore->grad_p, pore->grad_u, pore->n_flow, pore->head, pore->Z));
+  PetscCall(PetscFree2(pore->a, pore->b));
+  PetscCall(PetscMalloc5(2 * pore->capacity, &pore->grad_p, 4 * pore->capacity, &pore->grad_u, pore->capacity,
+                         &pore->n_flow, pore->capacity, &pore->head, pore->capacity, &pore->Z));
+  PetscCall(PetscMalloc2(2 * pore->capacity, &pore->a, 2 * pore->capacity, &pore->b));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPoreGetArrays(PgPore pore, PgPoreArrays *s)
+{
+  PgParticles p = pore->particles;
+  PetscInt    ghosts;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgParticlesGetSizes(p, &s->owned, &ghosts, NULL));
+  s->local = s->owned + ghosts;
+  PetscCall(PgParticlesGetArray(p, PG_POSITION, &s->x));
+  PetscCall(PgParticlesGetArray(p, PG_VELOCITY, &s->v));
+  PetscCall(PgParticlesGetArray(p, PG_RADIUS, &s->radius));
+  PetscCall(PgParticlesGetArray(p, pore->porosity, &s->n));
+  PetscCall(PgParticlesGetArray(p, pore->u, &s->u));
+  PetscCall(PgParticlesGetArray(p, pore->w, &s->w));
+  PetscCall(PgParticlesGetArray(p, pore->p, &s->p));
+  PetscCall(PgParticlesGetArray(p, pore->u_tilde, &s->u_tilde));
+  PetscCall(PgParticlesGetArray(p, pore->p_guess, &s->p_guess));
+  PetscCall(PgParticlesGetArray(p, pore->drag, &s->drag));
+  PetscCall(PgParticlesGetArray(p, pore->Q, &s->Q));
+  PetscCall(PgParticlesGetArray(p, pore->side, &s->side));
+  PetscCall(PgParticlesGetArray(p, pore->surface, &s->surface));
+  PetscCall(PgParticlesGetArray(p, pore->detached, &s->detached));
+  PetscCall(PgParticlesGetArray(p, pore->plate, &s->plate));
+  PetscCall(PgParticlesGetArray(p, pore->volume, &s->volume));
+  PetscCall(PgParticlesGetArray(p, pore->fluid_force, &s->fluid_force));
+  s->n_flow = pore->n_flow;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgCharacteristic(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, PetscReal u_f[], PetscReal p_f[])
+{
+  PetscFunctionBeginUser;
+  for (PetscInt a = 0; a < s->owned; a++) {
+    const PetscReal *g  = pore->grad_u + 4 * a;
+    const PetscReal  vx = s->v[2 * a], vy = s->v[2 * a + 1];
+    const PetscReal  sx = s->u[2 * a] + dt_f * (g[0] * vx + g[1] * vy),
+                    sy  = s->u[2 * a + 1] + dt_f * (g[2] * vx + g[3] * vy);
+    const PetscReal b00 = 1.0 + dt_f * g[0], b01 = dt_f * g[1], b10 = dt_f * g[2], b11 = 1.0 + dt_f * g[3];
+    const PetscReal det = b00 * b11 - b01 * b10;
+
+    if (det > 1e-3) {
+      u_f[2 * a]     = (b11 * sx - b01 * sy) / det;
+      u_f[2 * a + 1] = (b00 * sy - b10 * sx) / det;
+    } else { /* characteristics cross within the step: B has no use, stay where we are and count it */
+      u_f[2 * a]     = s->u[2 * a];
+      u_f[2 * a + 1] = s->u[2 * a + 1];
+      pore->characteristic_failures++;
+    }
+    p_f[a] = s->p[a] -
+             dt_f * (pore->grad_p[2 * a] * (u_f[2 * a] - vx) + pore->grad_p[2 * a + 1] * (u_f[2 * a + 1] - vy));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* p <-> p - rho_f g.x, ghosts included: the pressure equation and all gradients see the excess over
+   hydrostatic, so that water at rest is at rest exactly and an impermeable side needs no term of its own. */
+static void ShiftPressure(PgPore pore, const PgPoreArrays *s, PetscReal sign)
+{
+  const PetscReal gx = sign * pore->rho_f * pore->gravity[0], gy = sign * pore->rho_f * pore->gravity[1];
+
+  if (gx == 0.0 && gy == 0.0) return;
+  for (PetscInt a = 0; a < s->local; a++) s->p[a] += gx * s->x[2 * a] + gy * s->x[2 * a + 1];
+}
+
+PetscErrorCode PgPressureGradient(PgPore pore)
+{
+  PgPoreArrays s;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreGetArrays(pore, &s));
+  for (PetscInt a = 0; a < s.local; a++)
+    pore->head[a] = s.p[a] - pore->rho_f * (pore->gravity[0] * s.x[2 * a] + pore->gravity[1] * s.x[2 * a + 1]);
+  PetscCall(PgSphGradient(pore->sph, pore->head, pore->grad_p));
+  PetscCall(PgParticlesGetRevision(pore->particles, &pore->grad_p_revision));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Observe(PgPore pore)
+{
+  PgPoreArrays s;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreGetArrays(pore, &s));
+  for (PetscInt a = 0; a < s.owned; a++)
+    for (PetscInt i = 2 * a; i < 2 * a + 2; i++) s.w[i] = s.n[a] * (s.u[i] - s.v[i]);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPoreSetUp(PgPore pore, PetscReal dt_f)
+{
+  PgPoreArrays s;
+  PetscReal   *before;
+  PgField      fields[2] = {pore->u, PG_VELOCITY};
+
+  PetscFunctionBeginUser;
+  (void)dt_f;
+  PetscCall(PgPoreReserve(pore));
+  PetscCall(PgParticlesHalo(pore->particles, 1, &fields[1]));
+  PetscCall(PgPorosityCalibrate(pore));
+  PetscCall(PgPoreVolumes(pore));
+  PetscCall(PgSphUpdate(pore->sph));
+  PetscCall(PgBoundaryStart(pore));
+  PetscCall(PgBoundaryUpdate(pore));
+  PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(PgParticlesGetArray(pore->particles, pore->porosity_before, &before));
+  for (PetscInt a = 0; a < s.owned; a++) {
+    before[a]      = s.n[a];
+    s.p[a]         = pore->p_initial;
+    s.u[2 * a]     = s.v[2 * a];
+    s.u[2 * a + 1] = s.v[2 * a + 1];
+  }
+  PetscCall(PgPoreRefresh(pore));
+  PetscCall(PgPressureUpdate(pore->pressure, NULL));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPoreRefresh(PgPore pore)
+{
+  PgField      fields[3] = {pore->u, PG_VELOCITY, pore->p};
+  PgPoreArrays s;
+  PetscReal   *divergence;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreReserve(pore));
+  PetscCall(PgParticlesHalo(pore->particles, 3, fields));
+  PetscCall(PgPoreVolumes(pore));
+  PetscCall(PgSphUpdate(pore->sph));
+  PetscCall(PgPressureGradient(pore));
+  PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(PgParticlesGetArray(pore->particles, pore->divergence, &divergence));
+  PetscCall(PgSphDivergence(pore->sph, s.v, divergence));
+  PetscCall(Observe(pore));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPorePredict(PgPore pore, PetscReal dt_f)
+{
+  PetscInt revision;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgStagePush(PG_STAGE_PREDICTOR));
+  PetscCall(PgParticlesGetRevision(pore->particles, &revision));
+  PetscCheck(revision == pore->grad_p_revision, PgParticlesComm(pore->particles), PETSC_ERR_PLIB,
+             "discs were renumbered between two fluid steps without PgPoreRefresh()");
+  pore->characteristic_failures = 0;
+  PetscCall(pore->scheme->predict(pore, dt_f));
+  PetscCall(PgStagePop());
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Source(PgPore pore, PetscReal dt_f)
+{
+  PgPoreArrays s;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgStagePush(PG_STAGE_SOURCE));
+  PetscCall(pore->scheme->source(pore, dt_f, pore->Z));
+  PetscCall(PgPoreGetArrays(pore, &s));
+  if (pore->guess == PG_GUESS_CHARACTERISTIC) PetscCall(PetscArraycpy(s.p, s.p_guess, s.owned));
+  ShiftPressure(pore, &s, -1.0);
+  PetscCall(PgStagePop());
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Velocities(PgPore pore, PetscReal dt_f)
+{
+  PgField      fields[2] = {pore->u, PG_VELOCITY};
+  PgPoreArrays s;
+  PetscReal   *divergence;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgStagePush(PG_STAGE_CORRECTOR));
+  PetscCall(PgPoreGetArrays(pore, &s));
+  ShiftPressure(pore, &s, 1.0);
+  PetscCall(PgPressureGradient(pore));
+  PetscCall(pore->scheme->correct(pore, dt_f));
+  PetscCall(PgParticlesHalo(pore->particles, 2, fields));
+  if (pore->porosity_kind == PG_POROSITY_KINEMATIC) {
+    PetscCall(PgParticlesGetArray(pore->particles, pore->divergence, &divergence));
+    PetscCall(PgSphDivergence(pore->sph, s.v, divergence));
+  }
+  PetscCall(Observe(pore));
+  PetscCall(PgStagePop());
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPoreCorrect(PgPore pore, PetscReal dt_f)
+{
+  PgPoreArrays s;
+  PetscReal   *before;
+  PgField      velocity = PG_VELOCITY;
+
+  PetscFunctionBeginUser;
+  pore->clipped = 0;
+  PetscCall(PgPoreReserve(pore));
+  PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(PgParticlesGetArray(pore->particles, pore->porosity_before, &before));
+  PetscCall(PetscArraycpy(before, s.n, s.owned));
+  PetscCall(PgParticlesHalo(pore->particles, 1, &velocity)); /* whole-step velocities of the ghosts */
+  PetscCall(PgPorosityUpdate(pore, dt_f));
+  PetscCall(PgStagePush(PG_STAGE_GEOMETRY));
+  PetscCall(PgPoreVolumes(pore));
+  PetscCall(PgSphUpdate(pore->sph));
+  PetscCall(PgBoundaryUpdate(pore));
+  PetscCall(PgStagePop());
+  PetscCall(Source(pore, dt_f));
+  PetscCall(PgPressureUpdate(pore->pressure, NULL));
+  PetscCall(PgPressureSolve(pore->pressure, pore->Z, &pore->stats.pressure));
+  PetscCall(Velocities(pore, dt_f));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPoreGetStats(PgPore pore, PgPoreStats *stats)
+{
+  PgPoreArrays s;
+  PetscReal    least = PETSC_MAX_REAL, most[2] = {PETSC_MIN_REAL, 0.0}, sum = 0.0;
+  PetscInt count[4] = {pore->stats.surface, pore->stats.detached, pore->clipped, pore->characteristic_failures}, global;
+  MPI_Comm comm     = PgParticlesComm(pore->particles);
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(PgParticlesGetSizes(pore->particles, NULL, NULL, &global));
+  for (PetscInt a = 0; a < s.owned; a++) {
+    least   = PetscMin(least, s.p[a]);
+    most[0] = PetscMax(most[0], s.p[a]);
+    most[1] = PetscMax(most[1], PetscSqrtReal(s.w[2 * a] * s.w[2 * a] + s.w[2 * a + 1] * s.w[2 * a + 1]));
+    sum += s.p[a];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPIU_REAL, MPIU_MAX, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 4, MPIU_INT, MPI_SUM, comm));
+  *stats                         = pore->stats;
+  stats->p_min                   = least;
+  stats->p_max                   = most[0];
+  stats->p_mean                  = sum / (PetscReal)PetscMax(global, 1);
+  stats->w_max                   = most[1];
+  stats->surface                 = count[0];
+  stats->detached                = count[1];
+  stats->clipped                 = count[2];
+  stats->characteristic_failures = count[3];
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPoreGuard(PgPore pore, PetscInt step, PetscReal time)
+{
+  PgPoreArrays    s;
+  const PetscInt *id;
+  PetscReal       worst = 1.0, all;
+  PetscInt        disc  = -1;
+  PetscMPIInt     rank, owner = PETSC_MPI_INT_MAX;
+  PetscReal       where[7] = {0};
+  MPI_Comm        comm     = PgParticlesComm(pore->particles);
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(PgParticlesGetIds(pore->particles, &id));
+  for (PetscInt a = 0; a < s.owned; a++) {
+    const PetscReal speed = PetscSqrtReal(s.u[2 * a] * s.u[2 * a] + s.u[2 * a + 1] * s.u[2 * a + 1]);
+    PetscReal       bad   = PetscMax(PetscAbsReal(s.p[a]) / pore->guard_pressure, speed / pore->guard_speed);
+    if (!isfinite(s.p[a]) || !isfinite(speed) || !isfinite(s.n[a])) bad = PETSC_MAX_REAL;
+    if (bad > worst) {
+      worst = bad;
+      disc  = a;
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(&worst, &all, 1, MPIU_REAL, MPIU_MAX, comm));
+  if (all <= 1.0) PetscFunctionReturn(0);
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (disc >= 0 && worst == all) owner = rank;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &owner, 1, MPI_INT, MPI_MIN, comm));
+  if (owner == rank) {
+    const PetscReal data[7] = {(PetscReal)id[disc], s.x[2 * disc],     s.x[2 * disc + 1], s.p[disc],
+                               s.u[2 * disc],       s.u[2 * disc + 1], s.n[disc]};
+    PetscCall(PetscArraycpy(where, data, 7));
+  }
+  PetscCallMPI(MPI_Bcast(where, 7, MPIU_REAL, owner, comm));
+  PgRunError(comm,
+             "the water has blown up at step %" PetscInt_FMT ", t = %g s: disc %" PetscInt_FMT
+             " at (%g, %g) m has pressure %g Pa, "
+             "velocity (%g, %g) m/s, porosity %g (bounds: -pore_guard_pressure %g Pa, -pore_guard_speed %g m/s)%s",
+             step, (double)time, (PetscInt)where[0], (double)where[1], (double)where[2], (double)where[3],
+             (double)where[4], (double)where[5], (double)where[6], (double)pore->guard_pressure,
+             (double)pore->guard_speed, pore->advice);
+}
