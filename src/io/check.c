@@ -1,0 +1,144 @@
+/* What can be refused before anything is written: names, directories, a full disk. */
+#include "ioimpl.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+PetscErrorCode PgFileCheck(MPI_Comm comm, PetscErrorCode code, const char what[], const char file[],
+                           const char reason[])
+{
+  PetscMPIInt failed = reason ? 1 : 0;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, comm));
+  if (failed) {
+    PetscCall(PgReport(comm, "%s '%s': %s", what, file, reason ? reason : ""));
+    PetscFunctionReturn(code);
+  }
+  PetscFunctionReturn(0);
+}
+
+static const char *BaseName(const char file[])
+{
+  const char *slash = strrchr(file, '/');
+  return slash ? slash + 1 : file;
+}
+
+PetscErrorCode PgOutputCheckName(MPI_Comm comm, const char file[])
+{
+  const char  *base   = BaseName(file);
+  const size_t length = strlen(base);
+
+  PetscFunctionBeginUser;
+  PgInputCheck(length > 3 && strcmp(base + length - 3, ".h5") == 0, comm,
+               "result file '%s': the name must end in .h5, as in 'run.h5'", file);
+  PgInputCheck(!strchr(base, ':'), comm,
+               "result file '%s': the name must not hold ':', which ends the file name in the index for ParaView",
+               file);
+  PetscFunctionReturn(0);
+}
+
+/* Opens the file for writing as the real writing will, and leaves no trace; NULL or why not. */
+static const char *WhyNotWritable(const char file[])
+{
+  struct stat before;
+  const int   there      = stat(file, &before) == 0;
+  const int   descriptor = open(file, O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0666);
+
+  if (descriptor < 0) return strerror(errno);
+  (void)close(descriptor);
+  if (!there) (void)unlink(file);
+  return NULL;
+}
+
+static const char *WhyNotDirectory(const char directory[])
+{
+  struct stat found;
+
+  if (stat(directory, &found)) return strerror(errno);
+  return S_ISDIR(found.st_mode) ? NULL : strerror(ENOTDIR);
+}
+
+static PetscErrorCode DirectoryOf(const char file[], char **directory)
+{
+  char *slash;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscStrallocpy(file, directory));
+  slash = strrchr(*directory, '/');
+  if (!slash) {
+    PetscCall(PetscFree(*directory));
+    PetscCall(PetscStrallocpy(".", directory));
+  } else {
+    slash[slash == *directory ? 1 : 0] = 0;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* PgFileCheck() for input that the user can mend: PETSC_ERR_USER_INPUT. */
+PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char xmf[], const char csv[])
+{
+  const char *const places[] = {file, xmf, csv};
+  char             *directory;
+  PetscMPIInt       rank;
+  PetscErrorCode    err;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(DirectoryOf(file, &directory));
+  err = PgFileCheck(comm, PETSC_ERR_USER_INPUT, "directory of the result file", directory,
+                    rank ? NULL : WhyNotDirectory(directory));
+  for (size_t k = 0; !err && k < PETSC_STATIC_ARRAY_LENGTH(places); k++)
+    err = PgFileCheck(comm, PETSC_ERR_USER_INPUT, "result file", places[k], rank ? NULL : WhyNotWritable(places[k]));
+  PetscCall(PetscFree(directory));
+  PetscFunctionReturn(err);
+}
+
+/* A disk that fills up while HDF5 writes its tables spoils what is in the file already, and MPI-IO may
+   not survive it. So the blocks are asked for first, and given back by HDF5 when it closes the file. */
+static const char *WhyNoRoom(const char file[], off_t size, off_t more)
+{
+  const int   descriptor = open(file, O_WRONLY | O_CLOEXEC);
+  const char *reason     = NULL;
+  struct stat found;
+  int         err;
+
+  if (descriptor < 0) return strerror(errno);
+  if (fstat(descriptor, &found)) {
+    reason = strerror(errno);
+  } else if (found.st_size < size) { /* HDF5 would notice, if the new blocks did not make up for it */
+    reason = "the file has been cut since it was written";
+  } else {
+    err = posix_fallocate(descriptor, found.st_size, more);
+    /* Other codes say that this file system cannot tell. */
+    if (err == ENOSPC || err == EFBIG || err == EDQUOT) {
+      reason = strerror(err);
+      if (ftruncate(descriptor, found.st_size)) reason = strerror(errno);
+    }
+  }
+  (void)close(descriptor);
+  return reason;
+}
+
+PetscErrorCode PgOutputOpen(PgOutput output, PetscReal more, PgHdf *hdf)
+{
+  char what[96];
+
+  PetscFunctionBeginUser;
+  (void)snprintf(what, sizeof what, "cannot write %.3f MiB more into result file", (double)more / 1048576.);
+  PetscCall(PgFileCheck(output->comm, PETSC_ERR_FILE_WRITE, what, output->file,
+                        output->rank ? NULL : WhyNoRoom(output->file, output->file_size, (off_t)more)));
+  PetscCall(PgHdfOpen(output->comm, output->file, hdf));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgOutputClose(PgOutput output, PgHdf *hdf)
+{
+  struct stat          found;
+  const PetscErrorCode err = PgHdfClose(hdf);
+
+  PetscFunctionBeginUser;
+  if (output->rank == 0) output->file_size = stat(output->file, &found) ? 0 : found.st_size;
+  PetscFunctionReturn(err);
+}

@@ -1,0 +1,148 @@
+/* What the files of this room share. */
+#pragma once
+
+#include <porograin/io.h>
+#include <hdf5.h>
+#include <stdio.h>
+#include <sys/types.h>
+
+#if !defined(H5_HAVE_PARALLEL)
+  #error "porograin needs an HDF5 library built with MPI"
+#endif
+
+#if defined(PETSC_USE_REAL_SINGLE)
+  #define PG_HDF_REAL H5T_NATIVE_FLOAT
+#elif defined(PETSC_USE_REAL_DOUBLE)
+  #define PG_HDF_REAL H5T_NATIVE_DOUBLE
+#else
+  #error "result files hold single or double precision reals only"
+#endif
+#if defined(PETSC_USE_64BIT_INDICES)
+  #define PG_HDF_INT H5T_NATIVE_INT64
+#else
+  #define PG_HDF_INT H5T_NATIVE_INT
+#endif
+
+/* ---- hdf.c: an HDF5 file between opening and closing ----
+
+   The first HDF5 failure is remembered and makes the calls that follow do nothing, so that callers are
+   straight lines with one check at the end: PgHdfClose() prints it once and returns its code on every
+   rank. PetscErrorCode returned by the other calls is about PETSc and MPI only. All calls are collective
+   on comm, with the same arguments on every rank but for the rows that are written. */
+typedef struct {
+  MPI_Comm       comm;
+  const char    *file;
+  hid_t          id;
+  PetscBool      failed;
+  PetscErrorCode code;          /* what the failure is returned as */
+  char           trouble[1024]; /* "cannot write dataset '/a/b': ..." */
+  H5E_auto2_t    print;         /* HDF5's own error printing, off while the file is open */
+  void          *print_context;
+} PgHdf;
+
+#define PG_HDF_MAX_RANK 3
+
+/* Truncates an existing file. */
+PETSC_INTERN PetscErrorCode PgHdfCreate(MPI_Comm comm, const char file[], PgHdf *hdf);
+PETSC_INTERN PetscErrorCode PgHdfOpen(MPI_Comm comm, const char file[], PgHdf *hdf);
+/* Opens for reading on rank 0 of comm, which alone uses hdf->id until PgHdfClose(). */
+PETSC_INTERN PetscErrorCode PgHdfOpenToRead(MPI_Comm comm, const char file[], PgHdf *hdf);
+PETSC_INTERN PetscErrorCode PgHdfClose(PgHdf *hdf);
+PETSC_INTERN PetscErrorCode PgHdfFlush(PgHdf *hdf);
+/* Passes on `result` of an HDF5 call and remembers the failure if it is negative. Not collective. */
+PETSC_INTERN hid_t PgHdfWatch(PgHdf *hdf, const char action[], const char object[], hid_t result);
+/* Remembers a failure that HDF5 does not know of. Not collective. */
+PETSC_INTERN void           PgHdfFail(PgHdf *hdf, const char action[], const char object[], const char reason[]);
+PETSC_INTERN PetscErrorCode PgHdfGroup(PgHdf *hdf, const char path[]);
+PETSC_INTERN PetscErrorCode PgHdfRemoveIfThere(PgHdf *hdf, const char path[]);
+PETSC_INTERN PetscErrorCode PgHdfMove(PgHdf *hdf, const char from[], const char to[]);
+/* Attributes; an existing one of that name is replaced. */
+PETSC_INTERN PetscErrorCode PgHdfText(PgHdf *hdf, const char object[], const char name[], const char value[]);
+PETSC_INTERN PetscErrorCode PgHdfReal(PgHdf *hdf, const char object[], const char name[], PetscReal value);
+PETSC_INTERN PetscErrorCode PgHdfInt(PgHdf *hdf, const char object[], const char name[], PetscInt value);
+/* A dataset of `rank` dimensions with its attributes; chunk_rows > 0: with a growing first dimension. */
+PETSC_INTERN PetscErrorCode PgHdfDataset(PgHdf *hdf, const char path[], hid_t type, int rank, const hsize_t size[],
+                                         hsize_t chunk_rows, const char unit[], const char description[]);
+/* Makes the dataset `rows` long and writes rows [start, start + count) of this rank (count may be 0). */
+PETSC_INTERN PetscErrorCode PgHdfWriteRows(PgHdf *hdf, const char path[], hid_t type, PetscInt rows, PetscInt start,
+                                           PetscInt count, const void *data);
+
+/* ---- text.c: a growing string ---- */
+typedef struct {
+  char  *string;
+  size_t used, room;
+} PgText;
+
+PETSC_INTERN PetscErrorCode PgTextAppend(PgText *text, const char string[]);
+PETSC_INTERN PetscErrorCode PgTextPrint(PgText *text, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+PETSC_INTERN PetscErrorCode PgTextAppendXml(PgText *text, const char string[]); /* with &, <, >, " escaped */
+/* With the fewest digits that read back as the same number. */
+PETSC_INTERN PetscErrorCode PgTextReal(PgText *text, PetscReal value);
+/* The text of rank 0 on all ranks. Collective. */
+PETSC_INTERN PetscErrorCode PgTextBroadcast(PgText *text, MPI_Comm comm);
+PETSC_INTERN PetscErrorCode PgTextDestroy(PgText *text);
+
+/* ---- the output object ---- */
+
+/* Rows of the history kept in memory at most: when so many wait, they go to the file before a snapshot. */
+#define PG_HISTORY_WAITING 1024
+/* Rows of a piece of /history/<name> in the file, 4 KiB: little for a short run, few pieces for a long one. */
+#define PG_HISTORY_CHUNK 512
+
+struct PgOutput_s {
+  PgParticles particles; /* not owned */
+  MPI_Comm    comm;
+  PetscMPIInt rank;
+  char       *file, *xmf, *csv;
+  const char *base;      /* file without its directory, for the XDMF index beside it */
+  off_t       file_size; /* rank 0: when it was closed */
+  PetscInt    snapshots; /* complete ones in the file */
+  PetscBool   finished;
+  PetscReal  *byid; /* work space: one field, rows of this rank in the order of files */
+  PetscInt    byid_size;
+  /* history */
+  PetscInt   columns;
+  PgColumn  *column;     /* with copies of the strings */
+  PetscInt   written;    /* rows in the HDF5 file */
+  PetscInt   waiting;    /* rows not yet there */
+  PetscReal *row;        /* rank 0: [column][PG_HISTORY_WAITING], so that a column is contiguous */
+  FILE      *csv_stream; /* rank 0 */
+  PgText     line;       /* rank 0: the row as text */
+  /* rank 0: what FILE.xmf says about the snapshots */
+  PgText grids;
+};
+
+/* A failure of rank 0 (reason != NULL there), for all ranks: prints "what 'file': reason" and returns
+   `code`. Collective. */
+PETSC_INTERN PetscErrorCode PgFileCheck(MPI_Comm comm, PetscErrorCode code, const char what[], const char file[],
+                                        const char reason[]);
+
+/* check.c */
+PETSC_INTERN PetscErrorCode PgOutputCheckName(MPI_Comm comm, const char file[]);
+PETSC_INTERN PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char xmf[], const char csv[]);
+/* Opens the result file when it is sure that so many bytes more will fit into it. Collective. */
+PETSC_INTERN PetscErrorCode PgOutputOpen(PgOutput output, PetscReal more, PgHdf *hdf);
+PETSC_INTERN PetscErrorCode PgOutputClose(PgOutput output, PgHdf *hdf);
+
+/* provenance.c */
+PETSC_INTERN PetscErrorCode PgProvenanceStart(PgHdf *hdf);
+PETSC_INTERN PetscErrorCode PgProvenanceFinish(PgHdf *hdf);
+
+/* history.c */
+PETSC_INTERN PetscErrorCode PgHistoryCreate(PgOutput output, PetscInt columns, const PgColumn column[]);
+PETSC_INTERN PetscErrorCode PgHistoryCreateDatasets(PgOutput output, PgHdf *hdf);
+PETSC_INTERN PetscErrorCode PgHistoryOpenCsv(PgOutput output);
+PETSC_INTERN PetscErrorCode PgHistoryCloseCsv(PgOutput output);
+/* Upper bound of what appending the waiting rows adds to the file. */
+PETSC_INTERN PetscReal PgHistoryBytes(PgOutput output);
+/* The rows count as written when the caller has closed the file without an error and calls Done. */
+PETSC_INTERN PetscErrorCode PgHistoryAppend(PgOutput output, PgHdf *hdf);
+PETSC_INTERN void           PgHistoryAppendDone(PgOutput output);
+PETSC_INTERN PetscErrorCode PgHistoryDestroy(PgOutput output);
+
+/* xdmf.c: all but the last are for rank 0 */
+PETSC_INTERN PetscErrorCode PgXdmfBeginGrid(PgOutput output, const char group[], PetscReal time, PetscInt rows);
+PETSC_INTERN PetscErrorCode PgXdmfAddField(PgOutput output, const char group[], const char name[], PetscInt components,
+                                           PetscBool integer, PetscInt rows);
+PETSC_INTERN PetscErrorCode PgXdmfEndGrid(PgOutput output);
+PETSC_INTERN PetscErrorCode PgXdmfWrite(PgOutput output); /* collective */
