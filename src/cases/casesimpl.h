@@ -1,0 +1,6 @@
+/* The registered cases. */
+#pragma once
+
+#include <porograin/cases.h>
+
+PETSC_INTERN const PgCaseInfo PgCasePanel;

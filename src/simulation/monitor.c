@@ -1,0 +1,167 @@
+/* History rows, snapshots, progress lines and the summary. */
+#include "simulationimpl.h"
+
+const PgColumn PgHistoryColumns[COLUMN_COUNT] = {
+    [COLUMN_TIME]         = {"time", "s", "simulated time"},
+    [COLUMN_DISPLACEMENT] = {"displacement", "m", "displacement of the loading plate against its side"},
+    [COLUMN_LOAD]         = {"load", "N/m", "reaction of the loading plate to contact forces, positive in compression"},
+    [COLUMN_LOAD_TOTAL]   = {"load_total", "N/m", "reaction of the loading plate to all forces on its discs"},
+    [COLUMN_KINETIC_ENERGY] = {"kinetic_energy", "J/m", "translational and rotational kinetic energy of the discs"},
+    [COLUMN_PRESSURE_MIN]   = {"pressure_min", "Pa", "smallest pore pressure"},
+    [COLUMN_PRESSURE_MEAN]  = {"pressure_mean", "Pa", "mean pore pressure over the discs"},
+    [COLUMN_PRESSURE_MAX]   = {"pressure_max", "Pa", "largest pore pressure"},
+    [COLUMN_PRESSURE_ITERATIONS] = {"pressure_iterations", "1",
+                                    "Krylov iterations or explicit sweeps of the last fluid step"},
+    [COLUMN_PRESSURE_RESIDUAL]   = {"pressure_residual", "1",
+                                    "true relative residual ||b - A p||/||b|| of the pressure used"},
+    [COLUMN_PRESSURE_REMOVED]    = {"pressure_removed", "1",
+                                    "part of the right-hand side removed to make a singular system solvable"},
+    [COLUMN_RELATIVE_SPEED]      = {"relative_speed_max", "m/s", "largest |n (u - v)|"},
+    [COLUMN_SURFACE]             = {"surface_discs", "1", "discs that came to a drained surface"},
+    [COLUMN_DETACHED]            = {"detached_discs", "1", "discs outside the water"},
+    [COLUMN_CLIPPED]             = {"clipped_porosities", "1", "porosities clipped in the last fluid step"},
+    [COLUMN_CHARACTERISTIC]      = {"characteristic_failures", "1",
+                                    "discs whose characteristic could not be followed in the last fluid step"},
+    [COLUMN_LIST_BUILDS]         = {"list_builds", "1", "pair list builds so far"},
+};
+
+PetscBool PgMonitorDue(PgSimulation sim, PetscInt every)
+{
+  if (every <= 0) return PETSC_FALSE;
+  return (PetscBool)(sim->step % every == 0 || sim->step == sim->steps);
+}
+
+static PetscErrorCode FillRow(PgSimulation sim)
+{
+  PetscReal *row = sim->row;
+  PetscInt   builds;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(row, COLUMN_COUNT));
+  row[COLUMN_TIME] = sim->time;
+  if (sim->setup.load_plate >= 0) {
+    PgPlate plate;
+    PetscCall(PgDemGetPlate(sim->dem, sim->setup.load_plate, &plate));
+    row[COLUMN_DISPLACEMENT] = -plate.side * plate.velocity * sim->time;
+    PetscCall(PgDemGetLoad(sim->dem, sim->setup.load_plate, &row[COLUMN_LOAD], &row[COLUMN_LOAD_TOTAL]));
+  }
+  PetscCall(PgDemKineticEnergy(sim->dem, &row[COLUMN_KINETIC_ENERGY]));
+  if (sim->pore) {
+    PgPoreStats stats;
+    PetscCall(PgPoreGetStats(sim->pore, &stats));
+    row[COLUMN_PRESSURE_MIN]        = stats.p_min;
+    row[COLUMN_PRESSURE_MEAN]       = stats.p_mean;
+    row[COLUMN_PRESSURE_MAX]        = stats.p_max;
+    row[COLUMN_PRESSURE_ITERATIONS] = (PetscReal)stats.pressure.iterations;
+    row[COLUMN_PRESSURE_RESIDUAL]   = stats.pressure.residual;
+    row[COLUMN_PRESSURE_REMOVED]    = stats.pressure.removed;
+    row[COLUMN_RELATIVE_SPEED]      = stats.w_max;
+    row[COLUMN_SURFACE]             = (PetscReal)stats.surface;
+    row[COLUMN_DETACHED]            = (PetscReal)stats.detached;
+    row[COLUMN_CLIPPED]             = (PetscReal)stats.clipped;
+    row[COLUMN_CHARACTERISTIC]      = (PetscReal)stats.characteristic_failures;
+  }
+  PetscCall(PgNeighborsGetRevision(sim->neighbors, &builds));
+  row[COLUMN_LIST_BUILDS] = (PetscReal)builds;
+  if (row[COLUMN_LOAD] > sim->peak_load) {
+    sim->peak_load         = row[COLUMN_LOAD];
+    sim->peak_displacement = row[COLUMN_DISPLACEMENT];
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Snapshot(PgSimulation sim)
+{
+  PetscFunctionBeginUser;
+  if (!sim->output) PetscFunctionReturn(0);
+  PetscCall(PgStagePush(PG_STAGE_OUTPUT));
+  PetscCall(PgDemComputeObservables(sim->dem));
+  PetscCall(PgStrainCompute(sim->strain, sim->effective, sim->volumetric));
+  {
+    const PgExtraField extra[2] = {
+        {"effective_strain", 1, "1", "nominal effective strain sqrt(2/3 e:e) of the neighbourhood at the start",
+         sim->effective},
+        {"volumetric_strain", 1, "1", "nominal volumetric strain det F - 1 of the neighbourhood at the start",
+         sim->volumetric}};
+    PetscCall(PgOutputSnapshot(sim->output, sim->time, 2, extra));
+  }
+  PetscCall(PgStagePop());
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Progress(PgSimulation sim)
+{
+  const PetscReal     *row = sim->row;
+  const PetscLogDouble now = MPI_Wtime(), spent = now - sim->last_progress;
+  const PetscInt       done = sim->step - sim->last_progress_step;
+  PetscInt             global;
+  char                 water[160] = "";
+
+  PetscFunctionBeginUser;
+  PetscCall(PgParticlesGetSizes(sim->particles, NULL, NULL, &global));
+  if (sim->pore)
+    PetscCall(PetscSNPrintf(water, sizeof water, "  p %.4g..%.4g Pa  its %d  res %.1e",
+                            (double)row[COLUMN_PRESSURE_MIN], (double)row[COLUMN_PRESSURE_MAX],
+                            (int)row[COLUMN_PRESSURE_ITERATIONS], (double)row[COLUMN_PRESSURE_RESIDUAL]));
+  PetscCall(PetscPrintf(sim->comm,
+                        "step %8" PetscInt_FMT "  t %.4e s  load %11.4e N/m%s  %.2e disc-steps/s  left %.0f s\n",
+                        sim->step * sim->fluid_every, (double)sim->time, (double)row[COLUMN_LOAD], water,
+                        spent > 0 ? (double)(global * (PetscReal)(done * sim->fluid_every) / spent) : 0.0,
+                        done > 0 ? (double)(spent / (PetscReal)done * (PetscReal)(sim->steps - sim->step)) : 0.0));
+  (void)fflush(stdout);
+  sim->last_progress      = now;
+  sim->last_progress_step = sim->step;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgMonitorStart(PgSimulation sim)
+{
+  PetscFunctionBeginUser;
+  sim->started = sim->last_progress = MPI_Wtime();
+  sim->last_progress_step           = sim->step;
+  PetscCall(FillRow(sim));
+  if (sim->output) PetscCall(PgOutputHistory(sim->output, sim->row));
+  if (sim->output_every) PetscCall(Snapshot(sim));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgMonitorStep(PgSimulation sim)
+{
+  const PetscBool history = PgMonitorDue(sim, sim->history_every), progress = PgMonitorDue(sim, sim->progress_every);
+
+  PetscFunctionBeginUser;
+  if (history || progress) {
+    PetscCall(FillRow(sim));
+    if (history && sim->output) PetscCall(PgOutputHistory(sim->output, sim->row));
+    if (progress) PetscCall(Progress(sim));
+  }
+  if (PgMonitorDue(sim, sim->output_every)) PetscCall(Snapshot(sim));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgMonitorEnd(PgSimulation sim)
+{
+  const PetscLogDouble spent = MPI_Wtime() - sim->started;
+  PetscInt             global;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgParticlesGetSizes(sim->particles, NULL, NULL, &global));
+  if (sim->setup.load_plate >= 0)
+    PetscCall(PetscPrintf(sim->comm, "peak load %.4e N/m at a displacement of %.4e m, load at the end %.4e N/m\n",
+                          (double)sim->peak_load, (double)sim->peak_displacement, (double)sim->row[COLUMN_LOAD]));
+  PetscCall(PetscPrintf(sim->comm, "%.2f s for %" PetscInt_FMT " steps of %" PetscInt_FMT " discs, %.3e disc-steps/s\n",
+                        spent, sim->step * sim->fluid_every, global,
+                        spent > 0 ? (double)global * (double)(sim->step * sim->fluid_every) / spent : 0.0));
+  for (int s = PG_STAGE_LISTS; s < PG_STAGE_COUNT; s++) {
+    const PetscLogDouble seconds = PgStageSeconds((PgStage)s);
+    if (seconds > 0.0)
+      PetscCall(PetscPrintf(sim->comm, "  %-10s %8.2f s  %5.1f %%\n", PgStageName((PgStage)s), seconds,
+                            100.0 * seconds / PetscMax(spent, 1e-9)));
+  }
+  if (sim->output) {
+    PetscCall(PgOutputFinish(sim->output));
+    PetscCall(PetscPrintf(sim->comm, "results in %s, with .xmf for ParaView and .csv for the history beside it\n",
+                          sim->output_file));
+  }
+  PetscFunctionReturn(0);
+}

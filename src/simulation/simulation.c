@@ -1,0 +1,258 @@
+/* The object: options, set-up in the one order that refuses everything before anything is written. */
+#include "simulationimpl.h"
+
+static const char *const fluid_words[] = {"none", "darcy", "ns"};
+
+PetscErrorCode PgSimulationCreate(MPI_Comm comm, PgSimulation *simulation)
+{
+  PgSimulation sim;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscNew(&sim));
+  sim->comm                = comm;
+  sim->dt_safety           = 0.3;
+  sim->fluid_every         = 1;
+  sim->setup.comm          = comm;
+  sim->setup.load_plate    = -1;
+  sim->setup.solid_density = 2000.0;
+  sim->output_time = sim->history_time = sim->progress_time = -1.0;
+  sim->guard_every                                          = 200;
+  PetscCall(PgParticlesCreate(comm, &sim->particles));
+  PetscCall(PgNeighborsCreate(sim->particles, &sim->neighbors));
+  PetscCall(PgDemCreate(sim->particles, sim->neighbors, &sim->dem));
+  sim->setup.particles = sim->particles;
+  sim->setup.dem       = sim->dem;
+  *simulation          = sim;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TimeOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgOptionReal(PetscOptionsObject, "-dt",
+                         "time step of the discs; default: -dt_safety times the critical one", "s", PG_POSITIVE, 1e3,
+                         &sim->dt, &sim->dt_set));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-dt_safety",
+                         "fraction of the critical time step taken when -dt is absent", "1", 1e-6, 1.0, &sim->dt_safety,
+                         NULL));
+  PetscCall(PgOptionInt(PetscOptionsObject, "-fluid_every", "steps of the discs in one step of the water", 1, 1000000,
+                        &sim->fluid_every, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-end_time", "end of the run; default: of the case", "s", 0.0, 1e9,
+                         &sim->setup.end_time, &sim->end_set));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-output_every", "time between snapshots; default a tenth of the run", "s",
+                         0.0, 1e9, &sim->output_time, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-history_every",
+                         "time between history rows; default a thousandth of the run", "s", 0.0, 1e9,
+                         &sim->history_time, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-progress_every",
+                         "time between progress lines; default a twentieth of the run", "s", 0.0, 1e9,
+                         &sim->progress_time, NULL));
+  PetscCall(PgOptionInt(PetscOptionsObject, "-guard_every",
+                        "steps of the discs between checks for a run that has gone wrong", 1, 1000000,
+                        &sim->guard_every, NULL));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CaseOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
+{
+  const char *const *names;
+  PetscInt           count, chosen = 0, fluid = PG_FLUID_NONE;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgCaseGetNames(&count, &names));
+  PetscCall(PgOptionChoice(PetscOptionsObject, "-case", "problem to set up", count, names, &chosen, NULL));
+  PetscCall(PgCaseFind(names[chosen], &sim->case_info));
+  PetscCall(PgOptionChoice(PetscOptionsObject, "-fluid", "dry, Darcy's law, or averaged Navier-Stokes equations", 3,
+                           fluid_words, &fluid, NULL));
+  sim->fluid = (PgFluid)fluid;
+  PetscCall(PgOptionReal(PetscOptionsObject, "-solid_density", "density of the discs rho_s", "kg/m3", PG_POSITIVE, 1e6,
+                         &sim->setup.solid_density, NULL));
+  PetscCall(PgOptionReals(PetscOptionsObject, "-gravity", "acceleration of gravity, in both phases", "m/s2", 2,
+                          sim->setup.gravity, NULL));
+  PetscCall(PgOptionString(PetscOptionsObject, "-output",
+                           "result file, FILE.h5; FILE.xmf and FILE.csv are written beside it", sim->output_file,
+                           sizeof sim->output_file, NULL));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSimulationSetFromOptions(PgSimulation sim)
+{
+  PetscFunctionBeginUser;
+  PetscOptionsBegin(sim->comm, "", "porograin", "");
+  PetscCall(CaseOptions(sim, PetscOptionsObject));
+  PetscCall(TimeOptions(sim, PetscOptionsObject));
+  PetscOptionsEnd();
+  if (sim->fluid == PG_FLUID_NONE) sim->fluid_every = 1;
+  PetscCall(sim->case_info->create(sim->comm, &sim->case_context));
+  PetscCall(PgParticlesSetFromOptions(sim->particles));
+  PetscCall(PgNeighborsSetFromOptions(sim->neighbors));
+  PetscCall(PgDemSetFromOptions(sim->dem));
+  PetscCall(PgDemSetGravity(sim->dem, sim->setup.gravity));
+  if (sim->fluid != PG_FLUID_NONE) {
+    PetscCall(PgPoreCreate(sim->particles, sim->neighbors, sim->fluid, &sim->pore));
+    PetscCall(PgPoreSetGravity(sim->pore, sim->setup.gravity));
+    PetscCall(PgPoreSetSolidDensity(sim->pore, sim->setup.solid_density));
+    PetscCall(PgPoreSetFromOptions(sim->pore));
+    sim->setup.pore = sim->pore;
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscInt Interval(PetscReal asked, PetscReal fallback, PetscReal dt_f)
+{
+  const PetscReal interval = asked < 0.0 ? fallback : asked;
+
+  if (interval <= 0.0) return 0;
+  return PetscMax(1, (PetscInt)PetscFloorReal(interval / dt_f + 0.5));
+}
+
+static PetscErrorCode SetUpTime(PgSimulation sim, PetscReal case_end)
+{
+  const PetscReal asked_end = sim->setup.end_time;
+  PetscReal       dt_f, end;
+  PetscBool       displacement;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-panel_displacement", &displacement));
+  PgInputCheck(!(sim->end_set && displacement), sim->comm,
+               "options -end_time and -panel_displacement contradict each other: give one");
+  end = sim->end_set ? asked_end : case_end;
+  PgInputCheck(end > 0.0, sim->comm, "the run has no end: give -end_time > 0 s");
+  PetscCall(PgDemCriticalTimeStep(sim->dem, &sim->dt_critical));
+  PgInputCheck(!sim->dt_set || sim->dt <= sim->dt_critical, sim->comm,
+               "option -dt: %g s is above the critical time step %g s of the contacts", (double)sim->dt,
+               (double)sim->dt_critical);
+  if (!sim->dt_set) {
+    PgInputCheck(sim->dt_critical < 1e300, sim->comm, "no contact at the start to derive a time step from: give -dt");
+    sim->dt = sim->dt_safety * sim->dt_critical;
+  }
+  dt_f                = sim->dt * (PetscReal)sim->fluid_every;
+  sim->setup.end_time = end;
+  PgInputCheck(end / dt_f < 1e9, sim->comm, "%g steps to t = %g s with -dt %g s are too many", (double)(end / dt_f),
+               (double)end, (double)sim->dt);
+  sim->steps = (PetscInt)PetscCeilReal(end / dt_f - 1e-9); /* the end may be a multiple of the step but for rounding */
+  sim->output_every   = Interval(sim->output_time, end / 10.0, dt_f);
+  sim->history_every  = Interval(sim->history_time, end / 1000.0, dt_f);
+  sim->progress_every = Interval(sim->progress_time, end / 20.0, dt_f);
+  sim->guard_every    = PetscMax(1, sim->guard_every / sim->fluid_every);
+  if (sim->pore) PetscCall(PgPoreCheckStep(sim->pore, dt_f));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetUpWater(PgSimulation sim)
+{
+  PgPressure pressure;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreSetUp(sim->pore, sim->dt * (PetscReal)sim->fluid_every));
+  PetscCall(PgPoreGetParts(sim->pore, NULL, &pressure));
+  PetscCall(PgPressureSetUpSolver(pressure)); /* so that PETSc reads nested solver options before the check */
+  if (sim->output_file[0]) {
+    char file[PETSC_MAX_PATH_LEN];
+    PetscCall(PetscSNPrintf(file, sizeof file, "%.*s-failed.petsc", (int)PetscMax(0, (int)strlen(sim->output_file) - 3),
+                            sim->output_file));
+    PetscCall(PgPressureSetFailureFile(pressure, file));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckOptions(PgSimulation sim)
+{
+  PgPressure pressure = NULL;
+
+  PetscFunctionBeginUser;
+  if (sim->pore) PetscCall(PgPoreGetParts(sim->pore, NULL, &pressure));
+  PetscCall(PgOptionsCheckUnused(sim->comm, pressure ? PgPressureProbeOptions : NULL, pressure));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSimulationSetUp(PgSimulation sim)
+{
+  const PetscReal asked_end = sim->setup.end_time;
+  PetscInt        ids, start;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgStagePush(PG_STAGE_SETUP));
+  PetscCall(sim->case_info->setup(sim->case_context, &sim->setup));
+  {
+    const PetscReal case_end = sim->setup.end_time;
+    PetscCall(PgNeighborsBuild(sim->neighbors));
+    PetscCall(PgDemRestoreHistory(sim->dem));
+    sim->setup.end_time = asked_end;
+    PetscCall(SetUpTime(sim, case_end));
+  }
+  PetscCall(PgDemForces(sim->dem, 0.0));
+  if (sim->pore) PetscCall(SetUpWater(sim));
+  PetscCall(CheckOptions(sim));
+  PetscCall(PgParticlesGetIdRange(sim->particles, &start, &ids));
+  if (sim->output_file[0]) {
+    PetscCall(PetscMalloc2(ids, &sim->effective, ids, &sim->volumetric));
+    PetscCall(PgStrainCreate(sim->particles, sim->neighbors, &sim->strain));
+    PetscCall(PgOutputCreate(sim->particles, sim->output_file, COLUMN_COUNT, PgHistoryColumns, &sim->output));
+  } else {
+    sim->output_every = 0;
+  }
+  PetscCall(PgStagePop());
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSimulationView(PgSimulation sim, PetscViewer viewer)
+{
+  PetscInt    global;
+  PetscMPIInt size;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
+  PetscCall(PgParticlesGetSizes(sim->particles, NULL, NULL, &global));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "porograin %s: case %s, %" PetscInt_FMT " discs on %d ranks, fluid %s\n",
+                                   PG_VERSION, sim->case_info->name, global, (int)size, fluid_words[sim->fluid]));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "time step %.4e s, %.1f %% of the critical %.4e s", (double)sim->dt,
+                                   100.0 * (double)(sim->dt / sim->dt_critical), (double)sim->dt_critical));
+  if (sim->pore)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "; water every %" PetscInt_FMT " steps, %.4e s", sim->fluid_every,
+                                     (double)(sim->dt * (PetscReal)sim->fluid_every)));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "; %" PetscInt_FMT " steps to t = %.4e s\n", sim->steps * sim->fluid_every,
+                                   (double)sim->setup.end_time));
+  PetscCall(PgNeighborsView(sim->neighbors, viewer));
+  PetscCall(PgDemView(sim->dem, viewer));
+  if (sim->pore) PetscCall(PgPoreView(sim->pore, viewer));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSimulationDestroy(PgSimulation *simulation)
+{
+  PgSimulation sim = *simulation;
+
+  PetscFunctionBeginUser;
+  if (!sim) PetscFunctionReturn(0);
+  PetscCall(PgOutputDestroy(&sim->output));
+  PetscCall(PgStrainDestroy(&sim->strain));
+  PetscCall(PetscFree2(sim->effective, sim->volumetric));
+  PetscCall(PgPoreDestroy(&sim->pore));
+  PetscCall(PgDemDestroy(&sim->dem));
+  PetscCall(PgNeighborsDestroy(&sim->neighbors));
+  PetscCall(PgParticlesDestroy(&sim->particles));
+  if (sim->case_info) PetscCall(sim->case_info->destroy(&sim->case_context));
+  PetscCall(PetscFree(*simulation));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSimulationGetParts(PgSimulation sim, PgParticles *particles, PgNeighbors *neighbors, PgDem *dem,
+                                    PgPore *pore)
+{
+  PetscFunctionBeginUser;
+  if (particles) *particles = sim->particles;
+  if (neighbors) *neighbors = sim->neighbors;
+  if (dem) *dem = sim->dem;
+  if (pore) *pore = sim->pore;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSimulationGetTime(PgSimulation sim, PetscInt *step, PetscReal *time, PetscReal *dt)
+{
+  PetscFunctionBeginUser;
+  if (step) *step = sim->step;
+  if (time) *time = sim->time;
+  if (dt) *dt = sim->dt;
+  PetscFunctionReturn(0);
+}
