@@ -49,8 +49,8 @@ PETSC_EXTERN PetscErrorCode PgParticlesDestroy(PgParticles *particles);
 PETSC_EXTERN MPI_Comm       PgParticlesComm(PgParticles particles);
 
 /* Adds a field (strings are copied) and sets it to zero; a second registration under the same name
-   returns the first one's index, and joins the flags, if the shape agrees and is an error if not. May be called at any time
-   by all ranks in the same order. Not collective otherwise. */
+   returns the first one's index, and joins the flags, if the shape agrees and is an error if not. May be
+   called at any time by all ranks in the same order. Not collective otherwise. */
 PETSC_EXTERN PetscErrorCode PgParticlesRegisterField(PgParticles particles, const PgFieldInfo *info, PgField *field);
 PETSC_EXTERN PetscErrorCode PgParticlesFindField(PgParticles particles, const char name[],
                                                  PgField *field); /* -1: unknown */
@@ -60,8 +60,8 @@ PETSC_EXTERN PetscErrorCode PgParticlesGetArray(PgParticles particles, PgField f
 
 /* Variable-length data of each owned disc: records of `components` reals, `offset` (owned + 1) in
    records. It migrates and is reordered with its disc. Example: contact history, one record for each
-   touching partner. Set replaces all of it, taking a copy; with offset NULL no disc has a
-   record and the memory is given back. */
+   touching partner. Set replaces all of it, taking a copy; with offset NULL no disc has a record and the
+   memory is given back. */
 PETSC_EXTERN PetscErrorCode PgParticlesRegisterRagged(PgParticles particles, const char name[], PetscInt components,
                                                       unsigned flags, PgRagged *ragged);
 PETSC_EXTERN PetscErrorCode PgParticlesSetRagged(PgParticles particles, PgRagged ragged, const PetscInt offset[],

@@ -22,13 +22,10 @@ static PetscErrorCode MoveDiscs(PgSimulation sim)
   PetscCall(PgDemKickDrift(sim->dem, sim->dt));
   PetscCall(PgNeighborsNeedBuild(sim->neighbors, &build));
   PetscCall(PgStagePop());
-  if (build) {
+  if (build)
     PetscCall(PgSimulationBuildLists(sim)); /* leaves the ghosts current */
-  } else {
-    PetscCall(PgStagePush(PG_STAGE_HALO));
+  else
     PetscCall(PgParticlesHalo(sim->particles, 3, moving));
-    PetscCall(PgStagePop());
-  }
   PetscCall(PgStagePush(PG_STAGE_CONTACT));
   PetscCall(PgDemForces(sim->dem, sim->dt));
   PetscCall(PgStagePop());
