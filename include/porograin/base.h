@@ -82,6 +82,17 @@ PETSC_EXTERN PetscErrorCode PgOptionsCheckUnused(MPI_Comm comm, PetscErrorCode (
 /* Writes name, default, unit, text of every option met so far as a Markdown table. Collective. */
 PETSC_EXTERN PetscErrorCode PgOptionsWriteTable(MPI_Comm comm, const char file[]);
 
+/* ---- sums over all discs ---- */
+
+/* A sum that is exact, hence the same for any order of the terms and any number of ranks; up to 2^30
+   terms. Start with {.not_finite = 0}. A term that is not finite makes the sum NaN. */
+typedef struct {
+  long long word[69], not_finite;
+} PgExactSum;
+PETSC_EXTERN void PgExactSumAdd(PgExactSum *sum, PetscReal x);
+/* Adds up `count` sums over the ranks of comm (they are used up) and rounds them to value. Collective. */
+PETSC_EXTERN PetscErrorCode PgExactSumReduce(MPI_Comm comm, PetscInt count, PgExactSum sum[], PetscReal value[]);
+
 /* ---- log stages: one for each phase of the step ---- */
 
 typedef enum {

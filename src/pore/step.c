@@ -234,7 +234,8 @@ PetscErrorCode PgPoreCorrect(PgPore pore, PetscReal dt_f)
 PetscErrorCode PgPoreGetStats(PgPore pore, PgPoreStats *stats)
 {
   PgPoreArrays s;
-  PetscReal    least = PETSC_MAX_REAL, most[2] = {PETSC_MIN_REAL, 0.0}, sum = 0.0;
+  PetscReal    least = PETSC_MAX_REAL, most[2] = {PETSC_MIN_REAL, 0.0}, sum;
+  PgExactSum   exact = {.not_finite = 0};
   PetscInt count[4] = {pore->stats.surface, pore->stats.detached, pore->clipped, pore->characteristic_failures}, global;
   MPI_Comm comm     = PgParticlesComm(pore->particles);
 
@@ -245,11 +246,11 @@ PetscErrorCode PgPoreGetStats(PgPore pore, PgPoreStats *stats)
     least   = PetscMin(least, s.p[a]);
     most[0] = PetscMax(most[0], s.p[a]);
     most[1] = PetscMax(most[1], PetscSqrtReal(s.w[2 * a] * s.w[2 * a] + s.w[2 * a + 1] * s.w[2 * a + 1]));
-    sum += s.p[a];
+    PgExactSumAdd(&exact, s.p[a]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, most, 2, MPIU_REAL, MPIU_MAX, comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPIU_REAL, MPIU_SUM, comm));
+  PetscCall(PgExactSumReduce(comm, 1, &exact, &sum));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 4, MPIU_INT, MPI_SUM, comm));
   *stats                         = pore->stats;
   stats->p_min                   = least;
