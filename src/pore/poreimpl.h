@@ -87,6 +87,9 @@ typedef struct {
 PETSC_INTERN PetscErrorCode PgPoreGetArrays(PgPore pore, PgPoreArrays *arrays);
 PETSC_INTERN PetscErrorCode PgPoreReserve(PgPore pore);
 
+/* area_loop.c: area of discs inside the circle of radius circle*r_a about each owned disc */
+PETSC_INTERN void PgSolidAreaLoop(PetscInt owned, const PgRowList *list, PetscReal circle, const PetscReal x[],
+                                  const PetscReal radius[], PetscReal area[]);
 PETSC_INTERN PetscErrorCode PgPorosityCalibrate(PgPore pore);
 PETSC_INTERN PetscErrorCode PgPorosityUpdate(PgPore pore, PetscReal dt_f);
 /* div v and Dn/Dt along the discs [1/s], from the velocities v* at the end of the step: kinematic,

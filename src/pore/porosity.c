@@ -24,18 +24,7 @@ static PetscErrorCode SolidArea(PgPore pore, const PgPoreArrays *s, PetscReal ar
 
   PetscFunctionBeginUser;
   PetscCall(PgNeighborsGetRows(pore->neighbors, &list));
-  for (PetscInt a = 0; a < s->owned; a++) {
-    const PetscReal R   = sample_radius * s->radius[a];
-    PetscReal       sum = PETSC_PI * s->radius[a] * s->radius[a];
-    for (PetscInt k = list.ptr[a]; k < list.ptr[a + 1]; k++) {
-      const PetscInt  b  = list.col[k];
-      const PetscReal dx = s->x[2 * b] - s->x[2 * a], dy = s->x[2 * b + 1] - s->x[2 * a + 1], r = s->radius[b];
-      const PetscReal d2 = dx * dx + dy * dy;
-      if (d2 >= (R + r) * (R + r)) continue;
-      sum += d2 <= (R - r) * (R - r) && r <= R ? PETSC_PI * r * r : PgLensArea(R, r, PetscSqrtReal(d2));
-    }
-    area[a] = sum;
-  }
+  PgSolidAreaLoop(s->owned, &list, sample_radius, s->x, s->radius, area);
   PetscFunctionReturn(0);
 }
 
