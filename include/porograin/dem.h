@@ -50,10 +50,11 @@ typedef struct {
   PetscBool hold;     /* PETSC_TRUE: its discs are fixed altogether (a bed); velocity and friction unused */
 } PgPlate;
 
-/* Registers the fields force, torque, fluid_force, plate, plate_spring, coordination_number, stress and
-   the ragged data contact_history. Collective. */
+/* Registers the fields force, torque, fluid_force, external_force (f^e of Eq. 1, zero unless a case fills
+   it), plate, plate_spring, plate_reaction, contact_share, coordination_number, stress and the ragged data
+   contact_history. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemCreate(PgParticles particles, PgNeighbors neighbors, PgDem *dem);
-/* Reads -dem_* and -plate_friction. Collective. */
+/* Reads -dem_*, the contact law -dem_contact_law among them, and -plate_friction. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemSetFromOptions(PgDem dem);
 PETSC_EXTERN PetscErrorCode PgDemView(PgDem dem, PetscViewer viewer);
 PETSC_EXTERN PetscErrorCode PgDemDestroy(PgDem *dem);
@@ -66,6 +67,30 @@ PETSC_EXTERN PetscErrorCode PgDemAddPlate(PgDem dem, const PgPlate *plate, Petsc
 PETSC_EXTERN PetscErrorCode PgDemGetPlate(PgDem dem, PetscInt index, PgPlate *plate);
 PETSC_EXTERN PetscErrorCode PgDemGetPlateCount(PgDem dem, PetscInt *count);
 
+/* A wall: a rigid straight line of infinite length. Discs touch it by the contact law of the discs, with
+   the wall as partner of infinite mass, and remember their contact with it like any other. */
+typedef enum {
+  PG_WALL_FIXED,
+  PG_WALL_MOVING, /* velocity is prescribed */
+  PG_WALL_SERVO   /* moves along its normal until the force on it is what `stress` asks for */
+} PgWallKind;
+typedef struct {
+  char       name[32];
+  PgWallKind kind;
+  PetscReal  point[2], normal[2]; /* a point of the line [m]; unit normal into the discs */
+  PetscReal  velocity[2];         /* [m/s]; of a servo wall: what it has now */
+  PetscReal  friction;            /* sliding coefficient mu_s against the wall [1]; < 0: that of the discs */
+  PetscReal  stress;              /* servo: target of normal force over length, compression > 0 [N/m2 = N/m per m] */
+  PetscReal  length;       /* servo: length over which the stress acts [m], 0: distance of the two walls beside it */
+  PetscReal  max_velocity; /* servo: bound of its velocity [m/s] */
+} PgWall;
+PETSC_EXTERN PetscErrorCode PgDemAddWall(PgDem dem, const PgWall *wall, PetscInt *index);
+PETSC_EXTERN PetscErrorCode PgDemGetWall(PgDem dem, PetscInt index, PgWall *wall);
+PETSC_EXTERN PetscErrorCode PgDemSetWall(PgDem dem, PetscInt index, const PgWall *wall);
+PETSC_EXTERN PetscErrorCode PgDemGetWallCount(PgDem dem, PetscInt *count);
+/* Force of the discs on a wall [N/m], exact sum over discs. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemGetWallForce(PgDem dem, PetscInt index, PetscReal force[2]);
+
 /* Largest stable time step: 2/omega_max, with omega bounded by the stiffest contact when each disc's mass
    and inertia are shared out among its contacts (sliding with rotation included; Irons' element bound),
    reduced by the dashpots. PETSC_MAX_REAL without contacts. Needs built lists. Collective. */
@@ -77,13 +102,15 @@ PETSC_EXTERN PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt);
               positions, tangential increments with the half-step velocities; advances the history by dt.
               Ghost positions, velocities and spins must be current.
    Kick:      v += dt/2 F/m, w += dt/2 T/I.
-   Forces with dt = 0 evaluates without advancing anything: the start of a run. Collective. */
+   Forces with dt = 0 evaluates without advancing anything: the start of a run, where changes of the field
+   "plate" are taken up too (otherwise at list builds). Collective. */
 PETSC_EXTERN PetscErrorCode PgDemKickDrift(PgDem dem, PetscReal dt);
 PETSC_EXTERN PetscErrorCode PgDemForces(PgDem dem, PetscReal dt);
 PETSC_EXTERN PetscErrorCode PgDemKick(PgDem dem, PetscReal dt);
 
 /* Contact history across a list build: Save before PgNeighborsBuild() puts it into the ragged data (so
-   that it migrates, and checkpoints see it), Restore after it. Collective. */
+   that it migrates, and checkpoints see it), Restore after it. Save leaves the records alone while none have
+   been restored for the present lists: after reading a checkpoint they are the history. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemSaveHistory(PgDem dem);
 PETSC_EXTERN PetscErrorCode PgDemRestoreHistory(PgDem dem);
 

@@ -111,6 +111,7 @@ int PgFinalize(PetscErrorCode err)
   PetscMPIInt size   = 1;
 
   PgOptionsForget();
+  (void)PetscPopErrorHandler();
   (void)MPI_Comm_size(PETSC_COMM_WORLD, &size);
   /* An error that only some ranks have met leaves the others waiting in a collective call. */
   if (err && size > 1 && !collective_error) (void)MPI_Abort(PETSC_COMM_WORLD, status);

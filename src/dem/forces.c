@@ -100,7 +100,7 @@ PetscErrorCode PgDemGetContacts_Private(PgDem dem, PgContactList *list)
 
   PetscFunctionBeginUser;
   PetscCall(PgNeighborsGetRevision(dem->neighbors, &lists));
-  PetscCheck(lists == dem->lists, PETSC_COMM_SELF, PETSC_ERR_ORDER,
+  PetscCheck(lists == dem->lists, PgParticlesComm(dem->particles), PETSC_ERR_ORDER,
              "PgDemRestoreHistory() has not been called for the present contact list");
   PetscCall(PgNeighborsGetContacts(dem->neighbors, list));
   PetscFunctionReturn(0);

@@ -44,7 +44,7 @@ PetscErrorCode PgDemGetLoad(PgDem dem, PetscInt plate, PetscReal *contact, Petsc
   PetscInt   count = 0;
 
   PetscFunctionBeginUser;
-  PetscCheck(plate >= 0 && plate < dem->plate_count, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+  PetscCheck(plate >= 0 && plate < dem->plate_count, PgParticlesComm(dem->particles), PETSC_ERR_ARG_OUTOFRANGE,
              "no plate %" PetscInt_FMT " among %" PetscInt_FMT, plate, dem->plate_count);
   PetscCall(PgDemUpdatePlateDiscs_Private(dem));
   PetscCall(PgDemGetWork_Private(dem, 2 * dem->plate_disc_count, &work));

@@ -25,7 +25,7 @@ PetscReal PgDemPlateFriction_Private(PgDem dem, const PgPlate *plate)
 PetscErrorCode PgDemGetPlate(PgDem dem, PetscInt index, PgPlate *plate)
 {
   PetscFunctionBeginUser;
-  PetscCheck(index >= 0 && index < dem->plate_count, PETSC_COMM_SELF, PETSC_ERR_ARG_OUTOFRANGE,
+  PetscCheck(index >= 0 && index < dem->plate_count, PgParticlesComm(dem->particles), PETSC_ERR_ARG_OUTOFRANGE,
              "no plate %" PetscInt_FMT " among %" PetscInt_FMT, index, dem->plate_count);
   *plate          = dem->plates[index];
   plate->friction = PgDemPlateFriction_Private(dem, plate);

@@ -106,7 +106,7 @@ static void GuardNotFinite(void **state)
   WorldSet(&world, "torque", 1, 2, &bad);
   Capture();
   assert_int_equal(PgDemGuard(world.dem, 77, 0.5), PETSC_ERR_NOT_CONVERGED);
-  EXPECT("disc 2 at (0.11, 0.03) m", "spin 6. rad/s", "not finite; force (0., 0.) N/m, torque Inf");
+  EXPECT("disc 2 at (0.11, 0.03) m", "spin 6. rad/s", "not finite; force (0., 0.) N/m, torque inf");
   WorldDestroy(&world);
 }
 
@@ -161,6 +161,28 @@ static void AcceptedOptions(void **state)
   WorldDestroy(&world);
 }
 
+/* Every setting is printed. */
+static void View(void **state)
+{
+  const PgPlate   plate[]    = {{.name = "lid", .side = 1, .velocity = -0.25, .friction = 0.35},
+                                {.name = "bed", .hold = PETSC_TRUE}};
+  const PetscReal gravity[2] = {0.5, -9.5};
+  World           world;
+
+  (void)state;
+  WorldCreate(PETSC_COMM_WORLD, &world);
+  for (PetscInt k = 0; k < 2; k++) CHECK(PgDemAddPlate(world.dem, &plate[k], NULL));
+  CHECK(PgDemSetGravity(world.dem, gravity));
+  CHECK(PgDemSetDamping(world.dem, 0.75, 12.5));
+  Capture();
+  CHECK(PgDemView(world.dem, PETSC_VIEWER_STDERR_WORLD));
+  EXPECT("li2007", "k_n = 6e+08 N/m", "k_s = 4e+08 N/m", "k_r = 2000. N/m", "k_theta = 700. N m/rad", "mu_s = 0.5",
+         "mu_theta_r = 0.0001 m", "local damping 0.75, global damping 12.5 1/s", "gravity (0.5, -9.5)",
+         "speed 1000. m/s", "plate lid: above its discs, velocity -0.25 m/s, friction 0.35",
+         "plate bed: holds its discs");
+  WorldDestroy(&world);
+}
+
 static void Calls(void **state)
 {
   PgContactParameters p     = {.k_n = 6e8, .k_s = 4e8, .c_r = -3, .mu_s = 0.5};
@@ -171,7 +193,7 @@ static void Calls(void **state)
   WorldCreate(PETSC_COMM_WORLD, &world);
   Capture();
   assert_int_equal(PgDemSetParameters(world.dem, &p), PETSC_ERR_USER_INPUT);
-  EXPECT("contact parameter c_r = -3 N s/m");
+  EXPECT("contact parameter c_r = -3. N s/m");
   Capture();
   assert_int_equal(PgDemAddPlate(world.dem, &plate, NULL), PETSC_ERR_USER_INPUT);
   EXPECT("plate tilted: side 0.5");
@@ -186,7 +208,7 @@ static int Tests(void)
   const struct CMUnitTest tests[] = {cmocka_unit_test(GuardQuiet),   cmocka_unit_test(GuardSpeed),
                                      cmocka_unit_test(GuardOverlap), cmocka_unit_test(GuardNotFinite),
                                      cmocka_unit_test(Options),      cmocka_unit_test(AcceptedOptions),
-                                     cmocka_unit_test(Calls)};
+                                     cmocka_unit_test(View),         cmocka_unit_test(Calls)};
 
   return cmocka_run_group_tests_name("guard and options", tests, NULL, NULL);
 }

@@ -101,6 +101,56 @@ static void PairValues(void **state)
   assert_true(PetscAbsReal(Critical(&p, 2, disc) * PetscSqrtReal(3e8 / m1) / 2 - 1) < 1e-14);
 }
 
+/* Exact contact counts as contact, a gap does not, once anything touches: discs 0 and 1 touch but for rounding,
+   2 is near 1, and a heavy pair overlaps elsewhere. */
+static void WhoTouches(void **state)
+{
+  const PetscReal           r = 5e-3, m = 0.1, G = 2 / m;
+  const PgContactParameters p      = {.k_n = 6e8, .k_s = 1e8};
+  const Disc                disc[] = {{.x = 0.1, .y = 0.1, .r = r, .m = m},
+                                      {.x = 0.1 + 2 * r * 0.8, .y = 0.1 + 2 * r * 0.6 + 1e-14, .r = r, .m = m},
+                                      {.x = 0.1 + 4 * r * 0.8, .y = 0.1 + 4 * r * 0.6 + 1e-4, .r = r, .m = m},
+                                      {.x = 0.2, .y = 0.1, .r = r, .m = 10 * m},
+                                      {.x = 0.2 + 1.999 * r, .y = 0.1, .r = r, .m = 10 * m}};
+
+  (void)state;
+  assert_true(PetscAbsReal(Critical(&p, 5, disc) * PetscSqrtReal(6e8 * G) / 2 - 1) < 1e-14); /* rounding */
+}
+
+/* A light pair among heavy ones decides wherever it is, also where its discs belong to two ranks: its ghost must
+   come with its number of contacts. */
+static void AcrossRanks(void **state)
+{
+  enum { PAIRS = 16 };
+  const PetscReal           r = 5e-3, m = 0.1;
+  const PgContactParameters p     = {.k_n = 6e8, .k_s = 1e8};
+  PetscInt                  split = 0;
+  PetscMPIInt               size;
+
+  (void)state;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  for (PetscInt light = 0; light < PAIRS; light++) {
+    Disc      disc[2 * PAIRS];
+    PetscReal dt;
+    PetscInt  ghosts;
+    World     world;
+
+    for (PetscInt k = 0; k < 2 * PAIRS; k++)
+      disc[k] = (Disc){.x = 0.0257 * (PetscReal)(k / 2) + (k % 2 ? 1.999 * r : 0),
+                       .y = 0.1,
+                       .r = r,
+                       .m = k / 2 == light ? m : 3 * m};
+    Start(&world, &p, 2 * PAIRS, disc);
+    CHECK(PgParticlesGetSizes(world.particles, NULL, &ghosts, NULL));
+    CHECK(PgDemCriticalTimeStep(world.dem, &dt));
+    assert_true(PetscAbsReal(dt * PetscSqrtReal(6e8 * 2 / m) / 2 - 1) < 1e-14); /* rounding */
+    WorldDestroy(&world);
+    split += ghosts;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &split, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
+  assert_true(size == 1 || split > 0);
+}
+
 /* Largest kinetic energy over the first, in a compressed patch whose contacts neither open nor slip. */
 static PetscReal Growth(PetscReal fraction, PetscInt steps)
 {
@@ -137,6 +187,7 @@ static void SafeAndTight(void **state)
 static int Tests(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(PanelValue), cmocka_unit_test(PairValues),
+                                     cmocka_unit_test(WhoTouches), cmocka_unit_test(AcrossRanks),
                                      cmocka_unit_test(SafeAndTight)};
 
   return cmocka_run_group_tests_name("critical time step", tests, NULL, NULL);
