@@ -67,7 +67,6 @@ PG_CLONES void PgSolidAreaLoop(PetscInt owned, const PgRowList *list, PetscReal 
     for (PetscInt begin = list->ptr[a]; begin < list->ptr[a + 1]; begin += BLOCK) {
       const PetscInt  n   = PetscMin(BLOCK, list->ptr[a + 1] - begin);
       const PetscInt *col = list->col + begin;
-#pragma GCC ivdep
       for (PetscInt k = 0; k < n; k++) {
         const PetscReal dx = x[2 * col[k]] - xa, dy = x[2 * col[k] + 1] - ya;
         part[k] = Overlap(R, radius[col[k]], dx * dx + dy * dy);

@@ -28,7 +28,6 @@ static inline __attribute__((always_inline)) PetscReal Row(const Geometry *g, Pe
   const PetscReal       xa = g->x[2 * a], ya = g->x[2 * a + 1], ra = g->radius[a], self = 2.0 * g->half_smoothing * ra;
   PetscReal             sum = w(0.0) / (self * self) * g->volume[a];
 
-#pragma GCC ivdep
   for (PetscInt k = 0; k < n; k++) {
     const PetscInt  b  = col[k];
     const PetscReal dx = xa - g->x[2 * b], dy = ya - g->x[2 * b + 1], dv = g->volume[b];
