@@ -95,30 +95,60 @@ PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char 
   PetscFunctionReturn(err);
 }
 
-/* A disk that fills up while HDF5 writes its tables spoils what is in the file already, and MPI-IO may
-   not survive it. So the blocks are asked for first, and given back by HDF5 when it closes the file. */
+/* A disk that fills up while HDF5 writes its tables spoils what is in the file already, and a run on
+   several ranks may not even come back from the call. So the blocks are asked for before HDF5 writes; it
+   gives back what it did not need when it closes the file. NULL or why there is no room. */
+static const char *Allocate(int descriptor, off_t size, off_t more)
+{
+  const int err = posix_fallocate(descriptor, size, more);
+
+  /* Other codes say that this file system cannot tell. */
+  if (err != ENOSPC && err != EFBIG && err != EDQUOT) return NULL;
+  return strerror(ftruncate(descriptor, size) ? errno : err);
+}
+
 static const char *WhyNoRoom(const char file[], off_t size, off_t more)
 {
   const int   descriptor = open(file, O_WRONLY | O_CLOEXEC);
   const char *reason     = NULL;
   struct stat found;
-  int         err;
 
   if (descriptor < 0) return strerror(errno);
-  if (fstat(descriptor, &found)) {
+  if (fstat(descriptor, &found))
     reason = strerror(errno);
-  } else if (found.st_size < size) { /* HDF5 would notice, if the new blocks did not make up for it */
+  else if (found.st_size < size) /* HDF5 would notice, if the new blocks did not make up for it */
     reason = "the file has been cut since it was written";
-  } else {
-    err = posix_fallocate(descriptor, found.st_size, more);
-    /* Other codes say that this file system cannot tell. */
-    if (err == ENOSPC || err == EFBIG || err == EDQUOT) {
-      reason = strerror(err);
-      if (ftruncate(descriptor, found.st_size)) reason = strerror(errno);
-    }
-  }
+  else
+    reason = Allocate(descriptor, found.st_size, more);
   (void)close(descriptor);
   return reason;
+}
+
+/* For a new file: an old one of this name stays as it is, but its blocks will be free. */
+static const char *WhyNoRoomForNew(const char file[], off_t bytes)
+{
+  struct stat before;
+  const int   there      = stat(file, &before) == 0;
+  const int   descriptor = open(file, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  const char *reason     = NULL;
+
+  if (descriptor < 0) return strerror(errno);
+  if (!there) before.st_size = before.st_blocks = 0;
+  if ((off_t)before.st_blocks * 512 < bytes) {
+    reason = Allocate(descriptor, before.st_size, bytes);
+    if (!reason && ftruncate(descriptor, before.st_size)) reason = strerror(errno);
+  }
+  (void)close(descriptor);
+  if (!there) (void)unlink(file);
+  return reason;
+}
+
+PetscErrorCode PgOutputCheckRoom(PgOutput output, PetscReal bytes)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgFileCheck(output->comm, PETSC_ERR_FILE_WRITE, "cannot write result file", output->file,
+                        output->rank ? NULL : WhyNoRoomForNew(output->file, (off_t)bytes)));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgOutputOpen(PgOutput output, PetscReal more, PgHdf *hdf)

@@ -3,6 +3,7 @@
 
 #include <porograin/io.h>
 #include <hdf5.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <sys/types.h>
 
@@ -67,6 +68,27 @@ PETSC_INTERN PetscErrorCode PgHdfDataset(PgHdf *hdf, const char path[], hid_t ty
 PETSC_INTERN PetscErrorCode PgHdfWriteRows(PgHdf *hdf, const char path[], hid_t type, PetscInt rows, PetscInt start,
                                            PetscInt count, const void *data);
 
+/* ---- seal.c: files that know whether they are complete; all calls are for one rank ----
+
+   A reason is NULL when all went well, and otherwise a text that lives on. */
+typedef struct {
+  uint64_t sealed; /* [ns since 1970] */
+  off_t    bytes;  /* before the footer */
+} PgSealInfo;
+
+#define PG_SEAL_CHECKPOINT "PgCheckp"
+#define PG_SEAL_JOURNAL    "PgJourna"
+
+/* Appends the footer and waits until the file is on the disk. */
+PETSC_INTERN const char *PgSealFile(const char file[], const char kind[8]);
+PETSC_INTERN const char *PgSealVerify(const char file[], const char kind[8], PgSealInfo *info);
+/* Looks at the footer alone. */
+PETSC_INTERN const char *PgSealGlance(const char file[], const char kind[8], PgSealInfo *info);
+/* Waits until the names in the directory of the file are on the disk. */
+PETSC_INTERN const char *PgSyncDirectory(const char file[]);
+PETSC_INTERN const char *PgReadAll(int descriptor, void *buffer, size_t size, off_t offset);
+PETSC_INTERN const char *PgWriteAll(int descriptor, const void *buffer, size_t size, off_t offset);
+
 /* ---- text.c: a growing string ---- */
 typedef struct {
   char  *string;
@@ -86,6 +108,8 @@ PETSC_INTERN PetscErrorCode PgTextDestroy(PgText *text);
 
 /* Rows of the history kept in memory at most: when so many wait, they go to the file before a snapshot. */
 #define PG_HISTORY_WAITING 1024
+/* Bytes for /provenance, most of them for the lists of options. */
+#define PG_PROVENANCE_BYTES 262144
 /* Rows of a piece of /history/<name> in the file, 4 KiB: little for a short run, few pieces for a long one. */
 #define PG_HISTORY_CHUNK 512
 
@@ -120,6 +144,8 @@ PETSC_INTERN PetscErrorCode PgFileCheck(MPI_Comm comm, PetscErrorCode code, cons
 /* check.c */
 PETSC_INTERN PetscErrorCode PgOutputCheckName(MPI_Comm comm, const char file[]);
 PETSC_INTERN PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char xmf[], const char csv[]);
+/* Makes sure that a new result file of this size will fit on the device. Collective. */
+PETSC_INTERN PetscErrorCode PgOutputCheckRoom(PgOutput output, PetscReal bytes);
 /* Opens the result file when it is sure that so many bytes more will fit into it. Collective. */
 PETSC_INTERN PetscErrorCode PgOutputOpen(PgOutput output, PetscReal more, PgHdf *hdf);
 PETSC_INTERN PetscErrorCode PgOutputClose(PgOutput output, PgHdf *hdf);

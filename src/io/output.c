@@ -54,6 +54,7 @@ PetscErrorCode PgOutputCreate(PgParticles particles, const char file[], PetscInt
   err = AllocateNames(out, file);
   if (!err) err = PgOutputCheckPlaces(comm, out->file, out->xmf, out->csv);
   if (!err) err = PgHistoryCreate(out, columns, column);
+  if (!err) err = PgOutputCheckRoom(out, PgHistoryBytes(out) + PG_PROVENANCE_BYTES);
   if (!err) err = WriteFirst(out);
   if (err) {
     PetscCall(PgOutputDestroy(&out));
@@ -216,8 +217,7 @@ PetscErrorCode PgOutputFinish(PgOutput output)
 
   PetscFunctionBeginUser;
   if (output->finished) PetscFunctionReturn(0);
-  /* 256 KiB for the lists of options. */
-  PetscCall(PgOutputOpen(output, PgHistoryBytes(output) + 262144, &hdf));
+  PetscCall(PgOutputOpen(output, PgHistoryBytes(output) + PG_PROVENANCE_BYTES, &hdf));
   PetscCall(PgHistoryAppend(output, &hdf));
   PetscCall(PgProvenanceFinish(&hdf));
   PetscCall(PgHdfFlush(&hdf));

@@ -33,7 +33,8 @@ PetscErrorCode PgXdmfBeginGrid(PgOutput output, const char group[], PetscReal ti
 
   PetscFunctionBeginUser;
   PetscCall(PgParticlesGetFieldInfo(output->particles, PG_POSITION, &position));
-  PetscCall(PgTextPrint(text, "      <Grid Name=\"%s\" GridType=\"Uniform\">\n        <Time Value=\"", group));
+  PetscCall(PgTextPrint(text, "      <Grid Name=\"%s\" GridType=\"Uniform\">\n        <Time Value=\"",
+                        strrchr(group, '/') + 1));
   PetscCall(PgTextReal(text, time));
   PetscCall(PgTextPrint(text,
                         "\"/>\n        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" "
