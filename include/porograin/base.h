@@ -49,6 +49,11 @@ PETSC_EXTERN PetscErrorCode PgRefuseStrayArguments(int argc, char *argv[]);
 /* Ends PETSc and returns the exit status that belongs to `err`: 0 done, 2 bad input, 3 failed run,
    4 file trouble, 1 anything else. An error that only some ranks saw ends the others by MPI_Abort(). */
 PETSC_EXTERN int PgFinalize(PetscErrorCode err);
+/* Exit status of a run that ends without an error, but not as asked; default 0. */
+PETSC_EXTERN void PgSetExitStatus(int status);
+enum { PG_STATUS_ENDED_EARLY = 5 };
+/* Whether an error has been reported by all ranks together, so that collective calls still make sense. */
+PETSC_EXTERN PetscBool PgErrorIsCollective(void);
 
 /* ---- options ---- */
 
@@ -92,6 +97,36 @@ typedef struct {
 PETSC_EXTERN void PgExactSumAdd(PgExactSum *sum, PetscReal x);
 /* Adds up `count` sums over the ranks of comm (they are used up) and rounds them to value. Collective. */
 PETSC_EXTERN PetscErrorCode PgExactSumReduce(MPI_Comm comm, PetscInt count, PgExactSum sum[], PetscReal value[]);
+
+/* ---- state: what a run must remember beside the fields of its discs ---- */
+
+/* A list of named values, the same on all ranks, each at an address where it is read when the state is saved
+   and written when it is restored. Rooms add theirs; who saves and restores does not know what they mean. */
+typedef struct PgState_s *PgState;
+typedef enum { PG_STATE_REALS, PG_STATE_INTS, PG_STATE_TEXT } PgStateKind;
+typedef enum {
+  PG_STATE_KEEP, /* restored */
+  PG_STATE_MATCH /* must have the value that is restored: a setting that the run cannot change on its way */
+} PgStateRule;
+typedef struct {
+  const char *name;    /* of the dataset, with the room in front: "simulation_time" */
+  const char *meaning; /* MATCH: what the user calls it, e.g. "option -dt [s]" */
+  PgStateKind kind;
+  PgStateRule rule;
+  PetscInt    count; /* values, or bytes of a text with its end mark */
+  void       *value; /* PetscReal *, PetscInt * or char * */
+} PgStateItem;
+
+PETSC_EXTERN PetscErrorCode PgStateCreate(PgState *state);
+PETSC_EXTERN PetscErrorCode PgStateDestroy(PgState *state);
+/* The strings are copied, `value` is borrowed. `meaning` may be NULL for KEEP. */
+PETSC_EXTERN PetscErrorCode PgStateAddReals(PgState state, const char name[], PgStateRule rule, const char meaning[],
+                                            PetscInt count, PetscReal value[]);
+PETSC_EXTERN PetscErrorCode PgStateAddInts(PgState state, const char name[], PgStateRule rule, const char meaning[],
+                                           PetscInt count, PetscInt value[]);
+PETSC_EXTERN PetscErrorCode PgStateAddText(PgState state, const char name[], PgStateRule rule, const char meaning[],
+                                           PetscInt size, char value[]);
+PETSC_EXTERN PetscErrorCode PgStateGetItems(PgState state, PetscInt *count, const PgStateItem *items[]);
 
 /* ---- log stages: one for each phase of the step ---- */
 

@@ -67,9 +67,12 @@ PETSC_EXTERN PetscErrorCode PgPressureGetCounts(PgPressure pressure, PetscInt *p
 /* The next solve builds its preconditioner anew (checkpoints call it, so that a restarted run and the one
    that wrote the checkpoint go on alike). */
 PETSC_EXTERN PetscErrorCode PgPressureForgetPreconditioner(PgPressure pressure);
+/* Adds what a checkpoint must hold beside the fields: the number of solves, which names dumps. */
+PETSC_EXTERN PetscErrorCode PgPressureAddState(PgPressure pressure, PgState state);
 /* Makes matrix, right-hand side (of the last solve; Z = 0 when there was none since the update) and KSP available
    to studies, for either method; owned by the pressure object, each may be NULL. After PgPressureUpdate(). The unknown
-   is p - reference. Collective. */
+   is p - reference. The PC inside the KSP is replaced when discs were renumbered: set it by options, not by calls.
+   Collective. */
 PETSC_EXTERN PetscErrorCode PgPressureGetSystem(PgPressure pressure, Mat *A, Vec *b, KSP *ksp);
 /* For PgOptionsCheckUnused(): makes a KSP like ours, and what is inside it, print its option names as help.
    Collective. */

@@ -3,8 +3,9 @@
 #include <signal.h>
 #include <stdarg.h>
 
-static PetscBool collective_error = PETSC_FALSE; /* the error was reported by PgReport(): every rank has it */
-static PetscBool print_stack      = PETSC_FALSE;
+static PetscBool collective_error     = PETSC_FALSE; /* the error was reported by PgReport(): every rank has it */
+static PetscBool print_stack          = PETSC_FALSE;
+static int       status_without_error = 0;
 
 static void PrintError(const char *message)
 {
@@ -105,9 +106,13 @@ static int ExitStatus(PetscErrorCode err)
   }
 }
 
+PetscBool PgErrorIsCollective(void) { return collective_error; }
+
+void PgSetExitStatus(int status) { status_without_error = status; }
+
 int PgFinalize(PetscErrorCode err)
 {
-  const int   status = ExitStatus(err);
+  const int   status = err ? ExitStatus(err) : status_without_error;
   PetscMPIInt size   = 1;
 
   PgOptionsForget();

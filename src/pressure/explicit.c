@@ -10,12 +10,9 @@ static PetscErrorCode Update(PgPressure q)
   PetscFunctionReturn(0);
 }
 
-/* One sweep; *moved is the sum of (D (x_new - x_old))^2 over the discs of this rank: the squared residual
-   before the sweep. */
-static PetscErrorCode Sweep(PgPressure q, PetscReal p[], const PetscReal fixed[], PetscReal *moved)
+/* One sweep. When asked, *residual takes the sum of (D (x_new - x_old))^2: the squared residual before the sweep. */
+static PetscErrorCode Sweep(PgPressure q, PetscReal p[], const PetscReal fixed[], PgExactSum *residual)
 {
-  PetscReal sum = 0.0;
-
   PetscFunctionBeginUser;
   for (PetscInt a = 0; a < q->owned; a++) {
     PetscReal flow = q->source[a];
@@ -25,10 +22,9 @@ static PetscErrorCode Sweep(PgPressure q, PetscReal p[], const PetscReal fixed[]
     }
     for (PetscInt k = q->ptr[a]; k < q->ptr[a + 1]; k++) flow += q->weight[k] * (p[q->col[k]] - q->reference);
     q->next[a] = q->reference + flow / q->diagonal[a];
-    sum += PetscSqr(flow - q->diagonal[a] * (p[a] - q->reference));
+    if (residual) PgExactSumAdd(residual, PetscSqr(flow - q->diagonal[a] * (p[a] - q->reference)));
   }
   PetscCall(PetscArraycpy(p, q->next, q->owned));
-  *moved = sum;
   PetscFunctionReturn(0);
 }
 
@@ -37,7 +33,8 @@ static PetscReal Relative(PetscReal norm, PetscReal rhs) { return rhs > 0.0 ? no
 
 static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
 {
-  PetscReal *p, *fixed, *prescribed, first = 0.0, moved, residual, sum;
+  PgExactSum exact = {.not_finite = 0};
+  PetscReal *p, *fixed, *prescribed, first, residual, sum;
   PetscInt   global;
 
   PetscFunctionBeginUser;
@@ -48,8 +45,7 @@ static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
     if (fixed[a] != 0.0) p[a] = prescribed[a];
   for (PetscInt sweep = 0; sweep < q->sweeps; sweep++) {
     PetscCall(PgParticlesHalo(q->particles, 1, &q->p));
-    PetscCall(Sweep(q, p, fixed, &moved));
-    if (sweep == 0) first = moved;
+    PetscCall(Sweep(q, p, fixed, sweep == 0 && q->residual_requested ? &exact : NULL));
   }
   PetscCall(PgParticlesHalo(q->particles, 1, &q->p));
 
@@ -57,7 +53,7 @@ static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
   stats->residual = stats->initial = stats->removed = stats->rhs_norm = -1.0;
   if (!q->residual_requested) PetscFunctionReturn(0);
   PetscCall(PgPressureResidual(q, &residual, &stats->rhs_norm, &sum));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPIU_REAL, MPIU_SUM, q->comm));
+  PetscCall(PgExactSumReduce(q->comm, 1, &exact, &first));
   PetscCall(PgParticlesGetSizes(q->particles, NULL, NULL, &global));
   stats->residual = Relative(residual, stats->rhs_norm);
   stats->initial  = Relative(PetscSqrtReal(first), stats->rhs_norm);

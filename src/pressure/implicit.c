@@ -74,25 +74,33 @@ static PetscErrorCode MakeCompatible(PgPressure q, PetscReal norm, PetscReal *re
    residual of 1e-7 Pa * diagonal/N is an error of about 2e-7 Pa in the pressure at most. Nor can a residual be
    asked for that is below the rounding of the terms it is made of: those of the guess, and what was
    removed from b. */
-static PetscErrorCode SetTolerance(PgPressure q, PetscReal rhs, PetscReal guess, PetscReal *rtol, PetscReal *atol)
+static PetscErrorCode ChooseTolerance(PgPressure q, PetscReal given_rhs, PetscReal guess, PetscReal *rtol,
+                                      PetscReal *atol)
 {
-  PetscReal given, dtol, rounding;
+  PetscReal dtol, rounding;
   PetscInt  max_it, global;
 
   PetscFunctionBeginUser;
   PetscCall(VecGetSize(q->b, &global));
-  PetscCall(KSPGetTolerances(q->ksp, rtol, &given, &dtol, &max_it));
-  rounding = 4.0 * PETSC_MACHINE_EPSILON * (q->largest * guess + rhs);
-  *atol    = q->user_atol ? given : PetscMax(1e-7 * q->smallest / (PetscReal)global, rounding);
-  PetscCall(KSPSetTolerances(q->ksp, *rtol, *atol, dtol, max_it));
+  PetscCall(KSPGetTolerances(q->ksp, rtol, atol, &dtol, &max_it));
+  rounding = 4.0 * PETSC_MACHINE_EPSILON * (q->largest * guess + given_rhs);
+  if (!q->user_atol) *atol = PetscMax(1e-7 * q->smallest / (PetscReal)global, rounding);
   PetscFunctionReturn(0);
 }
 
-/* Runs the solver and recomputes what it leaves: ||b - A x||. */
-static PetscErrorCode Run(PgPressure q, KSPConvergedReason *reason, PetscReal *residual)
+/* Runs the solver and recomputes what it leaves: ||b - A x||. With b = 0 PETSc would take rtol relative to the
+   residual of the guess; only the absolute tolerance counts there. */
+static PetscErrorCode Run(PgPressure q, PetscReal rhs, PetscReal rtol, PetscReal atol, KSPConvergedReason *reason,
+                          PetscReal *residual)
 {
+  PetscReal dtol;
+  PetscInt  max_it;
+
   PetscFunctionBeginUser;
+  PetscCall(KSPGetTolerances(q->ksp, NULL, NULL, &dtol, &max_it));
+  PetscCall(KSPSetTolerances(q->ksp, rhs > 0.0 ? rtol : 0.0, atol, dtol, max_it));
   PetscCall(KSPSolve(q->ksp, q->b, q->x));
+  PetscCall(KSPSetTolerances(q->ksp, rtol, atol, dtol, max_it));
   PetscCall(KSPGetConvergedReason(q->ksp, reason));
   PetscCall(MatMult(q->A, q->x, q->r));
   PetscCall(VecAYPX(q->r, -1.0, q->b));
@@ -144,7 +152,7 @@ static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
   PetscCall(LoadGuess(q));
   PetscCall(VecNorm(q->b, NORM_2, &rhs));
   PetscCall(VecNorm(q->x, NORM_2, &guess));
-  PetscCall(SetTolerance(q, rhs, guess, &rtol, &atol));
+  PetscCall(ChooseTolerance(q, rhs, guess, &rtol, &atol));
   if (q->singular) {
     PetscCall(VecSum(q->x, &before));
     PetscCall(MakeCompatible(q, rhs, &stats->removed));
@@ -152,14 +160,14 @@ static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
   }
   PetscCall(PgPressureKeepPreconditioner(q, &fresh));
   q->history[0] = -1.0;
-  PetscCall(Run(q, &reason, &residual));
+  PetscCall(Run(q, rhs, rtol, atol, &reason, &residual));
   good = (PetscBool)(reason > 0 && residual <= 10.0 * PetscMax(rtol * rhs, atol));
   if (!good && !fresh && q->error_if_not_converged) {
     /* an old preconditioner may be to blame: one more try before the run ends */
     PetscCall(PetscInfo(q->ksp, "Failed with a kept preconditioner, once more with a new one\n"));
     PetscCall(LoadGuess(q));
     PetscCall(PgPressureBuildPreconditioner(q));
-    PetscCall(Run(q, &reason, &residual));
+    PetscCall(Run(q, rhs, rtol, atol, &reason, &residual));
     good = (PetscBool)(reason > 0 && residual <= 10.0 * PetscMax(rtol * rhs, atol));
   }
   if (q->singular) {

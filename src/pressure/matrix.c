@@ -23,8 +23,7 @@ static PetscErrorCode CreateMatrix(PgPressure q)
   PetscCall(MatCreate(q->comm, &q->A));
   PetscCall(MatSetOptionsPrefix(q->A, "pressure_"));
   PetscCall(MatSetSizes(q->A, q->owned, q->owned, PETSC_DETERMINE, PETSC_DETERMINE));
-  PetscCall(MatSetType(q->A, MATAIJ));
-  PetscCall(MatSetFromOptions(q->A));
+  PetscCall(MatSetFromOptions(q->A)); /* aij when nothing is said */
   PetscCall(MatGetType(q->A, &type));
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)q->A, &aij, MATSEQAIJ, MATMPIAIJ, ""));
   PgInputCheck(aij, q->comm, "option -pressure_mat_type: the pressure matrix must be of an aij type, %s is not", type);
@@ -80,7 +79,7 @@ static PetscErrorCode FindPlaces(PgPressure q, PetscInt start, const PetscInt in
 {
   Mat             own, other;
   const PetscInt *columns, *ia, *ja, *oia = NULL, *oja = NULL;
-  PetscInt        n;
+  PetscInt        n, places;
   PetscBool       done, other_done = PETSC_TRUE;
 
   PetscFunctionBeginUser;
@@ -102,6 +101,10 @@ static PetscErrorCode FindPlaces(PgPressure q, PetscInt start, const PetscInt in
       q->entry_at[k] = mine ? at : ~at;
     }
   }
+  places = ia[q->owned] + (other ? oia[q->owned] : 0);
+  /* two entries in one place: a disc and its image, in a period narrower than two reaches */
+  PetscCheck(places == q->ptr[q->owned] + q->owned, PETSC_COMM_SELF, PETSC_ERR_SUP,
+             "a row of the pressure equation holds a disc twice: the period is too narrow");
   if (other) PetscCall(MatRestoreRowIJ(other, 0, PETSC_FALSE, PETSC_FALSE, &n, &oia, &oja, &other_done));
   PetscCall(MatRestoreRowIJ(own, 0, PETSC_FALSE, PETSC_FALSE, &n, &ia, &ja, &done));
   PetscFunctionReturn(0);
@@ -141,6 +144,7 @@ static PetscErrorCode Describe(PgPressure q)
   PetscCall(MatSetOption(q->A, MAT_SYMMETRIC, q->symmetric));
   PetscCall(MatSetOption(q->A, MAT_SYMMETRY_ETERNAL, q->symmetric));
   PetscCall(MatSetOption(q->A, MAT_SPD, (PetscBool)(q->symmetric && !q->singular)));
+  PetscCall(MatSetOption(q->A, MAT_SPD_ETERNAL, (PetscBool)(q->symmetric && !q->singular)));
   if (q->singular) PetscCall(MatNullSpaceCreate(q->comm, PETSC_TRUE, 0, NULL, &constant));
   PetscCall(MatSetNullSpace(q->A, constant));
   PetscCall(MatSetTransposeNullSpace(q->A, q->symmetric ? constant : NULL));
@@ -149,42 +153,28 @@ static PetscErrorCode Describe(PgPressure q)
   PetscFunctionReturn(0);
 }
 
-/* Adds, because with periodic sides a row may see a disc and its image, or an image of its own disc. */
-static PetscErrorCode WriteValues(PgPressure q, const PetscReal fixed[], const PetscReal prescribed[],
-                                  PetscScalar own[], PetscScalar other[])
+/* Every place of the pattern belongs to one entry (FindPlaces() made sure), so all are written. */
+static void WriteValues(PgPressure q, const PetscReal fixed[], const PetscReal prescribed[], PetscScalar own[],
+                        PetscScalar other[])
 {
-  PetscFunctionBeginUser;
   for (PetscInt a = 0; a < q->owned; a++) {
-    PetscReal lift = 0.0;
-    own[q->diagonal_at[a]] += q->diagonal[a];
-    if (fixed[a] == 0.0) {
-      for (PetscInt k = q->ptr[a]; k < q->ptr[a + 1]; k++) {
-        const PetscInt b = q->col[k], at = q->entry_at[k];
-        if (fixed[b] != 0.0)
-          lift += q->weight[k] * (prescribed[b] - q->reference);
-        else if (at >= 0)
-          own[at] -= q->weight[k];
-        else
-          other[~at] -= q->weight[k];
+    const PetscReal free_row = fixed[a] == 0.0 ? 1.0 : 0.0;
+    PetscReal       lift     = 0.0;
+    own[q->diagonal_at[a]]   = q->diagonal[a];
+    for (PetscInt k = q->ptr[a]; k < q->ptr[a + 1]; k++) {
+      const PetscInt b = q->col[k], at = q->entry_at[k];
+      PetscReal      value = -free_row * q->weight[k];
+      if (fixed[b] != 0.0) {
+        lift -= value * (prescribed[b] - q->reference);
+        value = 0.0;
       }
+      if (at >= 0)
+        own[at] = value;
+      else
+        other[~at] = value;
     }
     q->lift[a] = lift;
   }
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ZeroedArray(Mat block, PetscScalar **value)
-{
-  PetscInt        n;
-  const PetscInt *ia, *ja;
-  PetscBool       done;
-
-  PetscFunctionBeginUser;
-  PetscCall(MatGetRowIJ(block, 0, PETSC_FALSE, PETSC_FALSE, &n, &ia, &ja, &done));
-  PetscCall(MatSeqAIJGetArrayWrite(block, value));
-  PetscCall(PetscArrayzero(*value, n ? ia[n] : 0));
-  PetscCall(MatRestoreRowIJ(block, 0, PETSC_FALSE, PETSC_FALSE, &n, &ia, &ja, &done));
-  PetscFunctionReturn(0);
 }
 
 static PetscErrorCode Fill(PgPressure q)
@@ -198,9 +188,9 @@ static PetscErrorCode Fill(PgPressure q)
   PetscCall(PgParticlesGetArray(q->particles, q->fixed, &fixed));
   PetscCall(PgParticlesGetArray(q->particles, q->prescribed, &prescribed));
   PetscCall(Blocks(q->A, &own, &other, &columns));
-  PetscCall(ZeroedArray(own, &value));
-  if (other) PetscCall(ZeroedArray(other, &other_value));
-  PetscCall(WriteValues(q, fixed, prescribed, value, other_value));
+  PetscCall(MatSeqAIJGetArrayWrite(own, &value));
+  if (other) PetscCall(MatSeqAIJGetArrayWrite(other, &other_value));
+  WriteValues(q, fixed, prescribed, value, other_value);
   if (other) PetscCall(MatSeqAIJRestoreArrayWrite(other, &other_value));
   PetscCall(MatSeqAIJRestoreArrayWrite(own, &value));
   /* marks the values as new for whoever looks at the whole matrix; nothing is communicated */

@@ -138,6 +138,7 @@ PetscErrorCode PgPressureSetFromOptions(PgPressure q)
   PetscCall(PetscOptionsHasName(NULL, "pressure_", "-ksp_type", &q->user_type));
   PetscCall(PetscOptionsHasName(NULL, "pressure_", "-ksp_atol", &q->user_atol));
   PetscCall(PgPressureSolverFromOptions(q, q->ksp));
+  q->from_options = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
@@ -161,7 +162,18 @@ PetscErrorCode PgPressureView(PgPressure q, PetscViewer viewer)
   if (q->dump[0])
     PetscCall(PetscViewerASCIIPrintf(viewer, "systems are written to %s every %" PetscInt_FMT " solves (0: once)\n",
                                      q->dump, q->dump_every));
-  if (implicit) PetscCall(KSPView(q->ksp, viewer));
+  if (implicit) {
+    KSPType   type;
+    PC        pc;
+    PCType    preconditioner;
+    PetscReal rtol;
+    PetscCall(KSPGetType(q->ksp, &type));
+    PetscCall(KSPGetPC(q->ksp, &pc));
+    PetscCall(PCGetType(pc, &preconditioner));
+    PetscCall(KSPGetTolerances(q->ksp, &rtol, NULL, NULL, NULL));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "solver %s with %s, rtol %g; all of it by -pressure_ksp_view\n", type,
+                                     preconditioner, (double)rtol));
+  }
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }
@@ -228,6 +240,13 @@ PetscErrorCode PgPressureForgetPreconditioner(PgPressure q)
   PetscFunctionBeginUser;
   /* a restarted run knows neither the factors nor the ordering or coarsening made for an earlier pattern */
   q->stale = q->restructured = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPressureAddState(PgPressure q, PgState state)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgStateAddInts(state, "pressure_solves", PG_STATE_KEEP, NULL, 1, &q->solves));
   PetscFunctionReturn(0);
 }
 

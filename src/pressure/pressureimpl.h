@@ -32,6 +32,7 @@ struct PgPressure_s {
   PetscReal     rebuild_factor;         /* of the iterations after a build, before the next build */
   PetscBool     error_if_not_converged; /* a solve that fails ends the run */
   PetscBool     residual_requested;     /* explicit: the next solve computes its residual */
+  PetscBool     from_options;           /* options are read */
   PetscBool     user_type, user_atol;   /* -pressure_ksp_type, -pressure_ksp_atol given */
   PetscInt      dump_every;             /* 0: the first solve only */
   char          dump[PETSC_MAX_PATH_LEN], failure[PETSC_MAX_PATH_LEN];
@@ -44,7 +45,7 @@ struct PgPressure_s {
   PetscReal      *source;               /* (rows) -Z_a dV_a; fixed discs: diagonal*(prescribed - reference) [Pa] */
   PetscReal      *lift;                 /* (rows) sum over fixed b of w_ab*(prescribed_b - reference) [Pa] */
   PetscReal      *next;                 /* (rows) result of a sweep [Pa] */
-  PetscReal       smallest, largest;    /* diagonal, over all discs */
+  PetscReal       smallest, largest;    /* |diagonal|, over all discs */
   PetscBool       singular, symmetric;
   PetscInt        neighbors_revision, particles_revision; /* of the weights */
   PetscInt       *row_id, known, known_size; /* ids of the owned discs when last compared, their number, capacity */
@@ -59,6 +60,7 @@ struct PgPressure_s {
   PetscBool matrix_current, source_current, rhs_current;
   PetscBool matrix_singular; /* null space attached */
   PetscInt  patterns, fills;
+  PetscInt  built_fills; /* fills when the preconditioner was built */
 
   /* the solver */
   KSP       ksp;

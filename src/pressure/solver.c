@@ -1,5 +1,23 @@
 /* The Krylov solver and its preconditioner: defaults, the user's options, and when to build anew. */
 #include "pressureimpl.h"
+#include <stdarg.h>
+#include <stdio.h>
+
+static PetscErrorCode SetDefaultPreconditioner(PC pc)
+{
+  PetscFunctionBeginUser;
+#if defined(PETSC_HAVE_HYPRE)
+  PetscBool chosen;
+
+  PetscCall(PCSetType(pc, PCHYPRE));
+  /* PETSc reads -pc_hypre_type only while none is set */
+  PetscCall(PetscOptionsHasName(NULL, "pressure_", "-pc_hypre_type", &chosen));
+  if (!chosen) PetscCall(PCHYPRESetType(pc, "boomeramg"));
+#else
+  PetscCall(PCSetType(pc, PCGAMG));
+#endif
+  PetscFunctionReturn(0);
+}
 
 PetscErrorCode PgPressureCreateSolver(PgPressure q, KSP *ksp)
 {
@@ -11,15 +29,12 @@ PetscErrorCode PgPressureCreateSolver(PgPressure q, KSP *ksp)
   PetscCall(KSPSetType(*ksp, KSPCG));
   /* the preconditioned norm, PETSc's default, differs from the residual by up to two digits either way */
   PetscCall(KSPSetNormType(*ksp, KSP_NORM_UNPRECONDITIONED));
-  PetscCall(KSPSetTolerances(*ksp, 1e-8, PETSC_DEFAULT, PETSC_DEFAULT, 1000));
+  /* PETSc measures divergence against b: when b has all but vanished in one step, the residual of the last pressure
+     would count as divergence before the first iteration. What truly diverges ends by the number of iterations. */
+  PetscCall(KSPSetTolerances(*ksp, 1e-8, PETSC_DEFAULT, 1e30, 1000));
   PetscCall(KSPSetInitialGuessNonzero(*ksp, PETSC_TRUE));
   PetscCall(KSPGetPC(*ksp, &pc));
-#if defined(PETSC_HAVE_HYPRE)
-  PetscCall(PCSetType(pc, PCHYPRE));
-  PetscCall(PCHYPRESetType(pc, "boomeramg"));
-#else
-  PetscCall(PCSetType(pc, PCGAMG));
-#endif
+  PetscCall(SetDefaultPreconditioner(pc));
   PetscFunctionReturn(0);
 }
 
@@ -107,14 +122,31 @@ static PetscErrorCode ChooseCoarseSolver(PgPressure q, PC pc)
 #endif
 }
 
+/* A preconditioner without a past: nothing that one keeps between builds (orderings, interpolation) may come from
+   another pattern or numbering. PCReset() is not enough: the solvers inside GAMG keep their old sizes. */
+static PetscErrorCode StartAfresh(PgPressure q)
+{
+  PC pc;
+
+  PetscFunctionBeginUser;
+  PetscCall(KSPReset(q->ksp));
+  PetscCall(PCCreate(q->comm, &pc));
+  PetscCall(PCSetOptionsPrefix(pc, "pressure_"));
+  PetscCall(SetDefaultPreconditioner(pc));
+  if (q->from_options) PetscCall(PCSetFromOptions(pc));
+  PetscCall(KSPSetPC(q->ksp, pc));
+  PetscCall(PCDestroy(&pc));
+  q->coarse_is_singular = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPressureBuildPreconditioner(PgPressure q)
 {
   PC pc;
 
   PetscFunctionBeginUser;
+  if (q->restructured && q->preconditioners) PetscCall(StartAfresh(q));
   PetscCall(KSPGetPC(q->ksp, &pc));
-  /* an ordering or coarsening made for another pattern must not survive */
-  if (q->restructured) PetscCall(KSPReset(q->ksp));
   PetscCall(ChooseCoarseSolver(q, pc));
   PetscCall(KSPSetReusePreconditioner(q->ksp, PETSC_FALSE));
   PetscCall(KSPSetOperators(q->ksp, q->A, q->A));
@@ -126,6 +158,7 @@ PetscErrorCode PgPressureBuildPreconditioner(PgPressure q)
   q->restructured     = PETSC_FALSE;
   q->served           = 0;
   q->first_iterations = 0;
+  q->built_fills      = q->fills;
   q->preconditioners++;
   PetscFunctionReturn(0);
 }
@@ -137,9 +170,28 @@ PetscErrorCode PgPressureKeepPreconditioner(PgPressure q, PetscBool *fresh)
   PetscFunctionBeginUser;
   /* preonly takes the preconditioner for the inverse: an old one would be the inverse of another matrix */
   PetscCall(PetscObjectTypeCompare((PetscObject)q->ksp, KSPPREONLY, &preonly));
-  if (!q->built || q->stale || (q->pc_lag && q->served >= q->pc_lag) || (preonly && q->served))
+  if (!q->built || q->stale || (q->pc_lag && q->served >= q->pc_lag) || (preonly && q->fills != q->built_fills))
     PetscCall(PgPressureBuildPreconditioner(q));
   *fresh = (PetscBool)(q->served == 0);
+  PetscFunctionReturn(0);
+}
+
+/* PETSc prints most of its help through PetscHelpPrintf, but options that name a type straight to the terminal: while
+   somebody collects help, these lines go the same way. */
+static PetscErrorCode (*print_to_file)(FILE *, const char[], va_list);
+
+static PetscErrorCode PrintAsHelp(FILE *file, const char format[], va_list arguments)
+{
+  char   text[4096];
+  size_t length;
+
+  PetscFunctionBeginUser;
+  if (PetscHelpPrintf == PetscHelpPrintfDefault) {
+    PetscCall((*print_to_file)(file, format, arguments));
+  } else {
+    PetscCall(PetscVSNPrintf(text, sizeof text, format, &length, arguments));
+    PetscCall((*PetscHelpPrintf)(PETSC_COMM_SELF, "%s", text));
+  }
   PetscFunctionReturn(0);
 }
 
@@ -150,7 +202,11 @@ PetscErrorCode PgPressureProbeOptions(void *pressure)
   Mat        A;
 
   PetscFunctionBeginUser;
-  /* A PETSc object prints its options once only, so fresh ones are asked. */
+  /* An object prints its options once only, so fresh ones are asked; and so does a prefix, which PETSc remembers even
+     when no help was wanted. */
+  PetscCall(PetscOptionsHelpPrintedDestroy(&PetscOptionsHelpPrintedSingleton));
+  print_to_file = PetscVFPrintf;
+  PetscVFPrintf = PrintAsHelp;
   PetscCall(PgPressureCreateSolver(q, &ksp));
   PetscCall(PgPressureSolverFromOptions(q, ksp));
   if (q->A) {
@@ -159,10 +215,11 @@ PetscErrorCode PgPressureProbeOptions(void *pressure)
     PetscCall(KSPSetUpOnBlocks(ksp));
   }
   PetscCall(KSPDestroy(&ksp));
+  PetscCall(PetscOptionsHelpPrintedDestroy(&PetscOptionsHelpPrintedSingleton)); /* matrices of the above */
   PetscCall(MatCreate(q->comm, &A));
   PetscCall(MatSetOptionsPrefix(A, "pressure_"));
-  PetscCall(MatSetType(A, MATAIJ));
   PetscCall(MatSetFromOptions(A));
   PetscCall(MatDestroy(&A));
+  PetscVFPrintf = print_to_file;
   PetscFunctionReturn(0);
 }
