@@ -57,6 +57,11 @@ PETSC_EXTERN PetscErrorCode PgPoreSetInitialPressure(PgPore pore, PetscReal pres
 /* Calibrates the porosity to the field "initial_porosity" that the case has filled, sets pressures and
    velocities, and computes the first geometry. Needs built lists and current ghosts. Collective. */
 PETSC_EXTERN PetscErrorCode PgPoreSetUp(PgPore pore, PetscReal dt_f);
+/* The same for a run that goes on from a checkpoint: all fields are there, nothing is calibrated or reset.
+   Collective. */
+PETSC_EXTERN PetscErrorCode PgPoreRestart(PgPore pore);
+/* Refuses restored values that no run can have produced: porosities, sides. Collective. */
+PETSC_EXTERN PetscErrorCode PgPoreCheckState(PgPore pore, const char file[]);
 /* Recomputes geometry, gradients and ghosts from the state as it is: after a list build between two fluid
    steps, and after a restart. Collective. */
 PETSC_EXTERN PetscErrorCode PgPoreRefresh(PgPore pore);

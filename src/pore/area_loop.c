@@ -26,10 +26,15 @@ static inline PetscReal ArcRational(PetscReal t)
   return p / q;
 }
 
+/* max(t, 0) as arithmetic: of a comparison the compiler may take the root first and choose afterwards, and the root of
+   a negative number, though thrown away, is what -fp_trap stops at. The same bits: doubling and halving are exact. */
+static inline PetscReal Positive(PetscReal t) { return 0.5 * (t + PetscAbsReal(t)); }
+
+/* 0 or pi beyond [-1, 1], which rounding may reach. */
 static inline PetscReal ArcCosine(PetscReal u)
 {
   const PetscReal a     = PetscAbsReal(u);
-  const PetscReal z     = 0.5 * (1.0 - a);
+  const PetscReal z     = 0.5 * Positive(1.0 - a);
   const PetscReal t     = a < 0.5 ? a * a : z;
   const PetscReal y     = a < 0.5 ? a : PetscSqrtReal(z);
   const PetscReal asin  = y + y * ArcRational(t);
@@ -46,10 +51,8 @@ static inline PetscReal Overlap(PetscReal R, PetscReal r, PetscReal d2)
   const PetscReal c2 = d2 < inner * inner ? inner * inner : (d2 > outer * outer ? outer * outer : d2);
   const PetscReal d  = PetscSqrtReal(c2);
   const PetscReal x = (c2 + r * r - R * R) / (2.0 * d), X = d - x; /* of the chord, from either centre */
-  const PetscReal u = x / r, U = X / R;
-  const PetscReal cu = u < -1.0 ? -1.0 : (u > 1.0 ? 1.0 : u), cU = U > 1.0 ? 1.0 : (U < -1.0 ? -1.0 : U);
-  const PetscReal h2 = r * r - x * x, h = PetscSqrtReal(h2 > 0.0 ? h2 : 0.0);
-  const PetscReal lens = r * r * ArcCosine(cu) + R * R * ArcCosine(cU) - d * h;
+  const PetscReal h    = PetscSqrtReal(Positive(r * r - x * x));
+  const PetscReal lens = r * r * ArcCosine(x / r) + R * R * ArcCosine(X / R) - d * h;
 
   return d2 >= outer * outer ? 0.0 : (d2 <= inner * inner ? PETSC_PI * least * least : lens);
 }

@@ -41,13 +41,21 @@ PetscErrorCode PgBoundaryStart(PgPore pore)
   PetscFunctionReturn(0);
 }
 
+/* Whether some disc is within the kernel's reach: the list holds others, too. */
+static PetscBool HasNeighbour(const PgSphCoefficients *c, PetscInt a)
+{
+  for (PetscInt k = c->ptr[a]; k < c->ptr[a + 1]; k++)
+    if (c->weight[k] > 0.0) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 static PetscBool IsDetached(PgPore pore, const PgPoreArrays *s, const PgSphCoefficients *c, const PetscReal start[],
                             PetscInt a)
 {
   /* a disc that formed a side has had fewer neighbours from the start */
   const PetscReal threshold = pore->detach_sum * (s->side[a] != 0.0 || s->plate[a] != 0.0 ? start[a] : 1.0);
 
-  return (PetscBool)(s->n[a] > pore->detach_n || c->kernel_sum[a] < threshold || c->ptr[a + 1] == c->ptr[a]);
+  return (PetscBool)(s->n[a] > pore->detach_n || c->kernel_sum[a] < threshold || !HasNeighbour(c, a));
 }
 
 static PetscBool IsSurface(PgPore pore, const PgPoreArrays *s, const PgSphCoefficients *c, PetscInt a)
@@ -82,7 +90,7 @@ PetscErrorCode PgBoundaryUpdate(PgPore pore)
     prescribed[a] = drained >= 0 ? pore->boundary[drained].pressure : pore->p_initial;
     /* in terms of the excess over hydrostatic pressure, which is what is solved for */
     prescribed[a] -= pore->rho_f * (pore->gravity[0] * s.x[2 * a] + pore->gravity[1] * s.x[2 * a + 1]);
-    pore->stats.surface += s.surface[a] != 0.0;
+    pore->stats.surface += s.surface[a] != 0.0 && drained >= 0;
     pore->stats.detached += s.detached[a] != 0.0;
   }
   PetscFunctionReturn(0);
@@ -118,4 +126,16 @@ PetscReal PgBoundaryInflow(PgPore pore, const PgPoreArrays *s, PetscInt a)
     inflow -= bc->flux * (axis[i][0] + axis[i][1]) * 2.0 * s->radius[a];
   }
   return inflow;
+}
+
+PetscReal PgBoundaryForce(PgPore pore, const PgPoreArrays *s, const PetscReal F[], PetscInt a)
+{
+  PetscReal force = 0.0;
+
+  for (int i = 0; i < PG_SIDE_COUNT; i++) {
+    const PgBoundaryKind kind = pore->boundary[i].kind;
+    if (!OnSide(s->side[a], i) || kind == PG_BC_DRAINED || kind == PG_BC_NATURAL) continue;
+    force += (axis[i][0] * F[2 * a] + axis[i][1] * F[2 * a + 1]) * 2.0 * s->radius[a];
+  }
+  return force;
 }

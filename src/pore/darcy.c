@@ -2,10 +2,9 @@
 #include "poreimpl.h"
 
 /* Extra mobility of the mixture when discs are moved by the same pressure: dt/((1 - n) rho_s). */
-static PetscReal SolidMobility(PgPore pore, const PgPoreArrays *s, PetscInt a, PetscReal dt_f)
+static PetscReal SolidMobility(PgPore pore, PetscInt a, PetscReal dt_f)
 {
-  if (pore->coupling != PG_COUPLING_DRAG_AND_PRESSURE || pore->coupling_scheme != PG_SCHEME_PROJECTION) return 0.0;
-  return PgPoreIsFree(s, a) ? dt_f / ((1.0 - pore->n_flow[a]) * pore->rho_s) : 0.0;
+  return dt_f / ((1.0 - pore->n_flow[a]) * pore->rho_s);
 }
 
 /* Drag n w V/((1 - n) k_p) of Eq. 29 with w/k_p = -grad p; with the pressure gradient -V grad p the sum is
@@ -13,7 +12,7 @@ static PetscReal SolidMobility(PgPore pore, const PgPoreArrays *s, PetscInt a, P
 static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
 {
   const PetscBool pressure  = (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE);
-  const PetscBool projected = (PetscBool)(pressure && pore->coupling_scheme == PG_SCHEME_PROJECTION);
+  const PetscBool projected = PgPoreIsProjected(pore);
   PgPoreArrays    s;
 
   PetscFunctionBeginUser;
@@ -33,18 +32,42 @@ static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
   PetscFunctionReturn(0);
 }
 
-/* (k_p + dt/((1 - n) rho_s)) lap p = Dn/Dt + n div v - inflow per area. */
-static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
+/* kappa = k_p + dt/((1 - n) rho_s). */
+static PetscErrorCode Mobility(PgPore pore, PetscReal dt_f, PetscReal kappa[], PetscBool *uniform)
 {
-  PgPoreArrays s;
+  const PetscBool   projected = PgPoreIsProjected(pore);
+  PgSphCoefficients c;
+  PgPoreArrays      s;
 
   PetscFunctionBeginUser;
   PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(PgSphGetCoefficients(pore->sph, &c));
+  for (PetscInt a = 0; a < s.owned; a++) {
+    kappa[a] = PgPermeability(pore, pore->n_flow[a], s.radius[a]);
+    if (projected && PgPoreHasAddedMass(&s, &c, a)) kappa[a] += SolidMobility(pore, a, dt_f);
+  }
+  *uniform = (PetscBool)!pore->k_p_local;
+  PetscFunctionReturn(0);
+}
+
+/* div(kappa grad p) = Dn/Dt + n div v - inflow per area. Through a side water flows relative to the discs,
+   k_p dp/dn = w, whether they move or not: that source is in proportion to the share of k_p in kappa. With a constant
+   k_p, kappa changes little from disc to disc and is divided out. */
+static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
+{
+  PetscReal   *kappa = pore->b;
+  PgPoreArrays s;
+  PetscBool    uniform;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(Mobility(pore, dt_f, kappa, &uniform));
   PetscCall(PgPorosityChange(pore, &s, dt_f, pore->a, Z));
   for (PetscInt a = 0; a < s.owned; a++) {
     const PetscReal k_p = PgPermeability(pore, pore->n_flow[a], s.radius[a]);
-    Z[a]                = (Z[a] + pore->n_flow[a] * pore->a[a] - PgBoundaryInflow(pore, &s, a) / s.volume[a]) /
-           (k_p + SolidMobility(pore, &s, a, dt_f));
+
+    Z[a] += pore->n_flow[a] * pore->a[a] - kappa[a] / k_p * (PgBoundaryInflow(pore, &s, a) / s.volume[a]);
+    if (uniform) Z[a] /= kappa[a];
   }
   PetscFunctionReturn(0);
 }
@@ -56,8 +79,9 @@ static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
   PetscFunctionBeginUser;
   PetscCall(PgPoreGetArrays(pore, &s));
   for (PetscInt a = 0; a < s.owned; a++) {
-    const PetscReal k_p      = PgPermeability(pore, pore->n_flow[a], s.radius[a]),
-                    mobility = SolidMobility(pore, &s, a, dt_f);
+    const PetscReal k_p      = PgPermeability(pore, pore->n_flow[a], s.radius[a]);
+    const PetscReal mobility = PgPoreIsProjected(pore) && PgPoreIsFree(&s, a) ? SolidMobility(pore, a, dt_f) : 0.0;
+
     for (PetscInt i = 2 * a; i < 2 * a + 2; i++) {
       if (mobility > 0.0) s.v[i] -= mobility * pore->grad_p[i];
       s.u[i] = s.detached[a] != 0.0 ? s.v[i] : s.v[i] - k_p * pore->grad_p[i] / pore->n_flow[a];
@@ -66,4 +90,4 @@ static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
   PetscFunctionReturn(0);
 }
 
-const PgFluidScheme PgSchemeDarcy = {"darcy", Predict, Source, Correct};
+const PgFluidScheme PgSchemeDarcy = {"darcy", Predict, Source, Mobility, Correct};

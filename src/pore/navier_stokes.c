@@ -77,15 +77,18 @@ static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
 }
 
 /* Eq. 50; `averaged` continuity adds -rho_f/(theta dt) S with S = -[Dn/Dt + (u~ - v).grad n]/n, and the
-   two-phase projection divides by 1 + (1 - n) rho_f/(n theta rho_s) on discs that it moves. */
+   two-phase projection divides by 1 + (1 - n) rho_f/(n theta rho_s). */
 static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
 {
-  const PetscReal scale = pore->rho_f / (pore->theta * dt_f);
-  PgPoreArrays    s;
-  PgField         fields[2] = {pore->u_tilde, pore->drag};
+  const PetscReal   scale   = pore->rho_f / (pore->theta * dt_f);
+  const PetscBool   project = PgPoreIsProjected(pore);
+  PgPoreArrays      s;
+  PgSphCoefficients c;
+  PgField           fields[2] = {pore->u_tilde, pore->drag};
 
   PetscFunctionBeginUser;
   PetscCall(PgPoreGetArrays(pore, &s));
+  PetscCall(PgSphGetCoefficients(pore->sph, &c));
   PetscCall(PgBoundaryVelocity(pore, &s, s.u_tilde));
   PetscCall(PgDragForce(pore, &s, s.u_tilde, s.drag));
   PetscCall(PgParticlesHalo(pore->particles, 2, fields));
@@ -102,9 +105,10 @@ static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
   PetscCall(PgSphDivergence(pore->sph, s.drag, pore->a));
   for (PetscInt a = 0; a < s.owned; a++) {
     Z[a] = scale * Z[a] + pore->a[a];
-    if (pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE && pore->coupling_scheme == PG_SCHEME_PROJECTION &&
-        PgPoreIsFree(&s, a))
+    if (project && PgPoreHasAddedMass(&s, &c, a))
       Z[a] /= 1.0 + (1.0 - pore->n_flow[a]) * pore->rho_f / (pore->n_flow[a] * pore->theta * pore->rho_s);
+    /* where u.e is prescribed Eq. 47 leaves dp/de = F.e, which a side with nothing said about its pressure has not */
+    Z[a] -= PgBoundaryForce(pore, &s, s.drag, a) / s.volume[a];
   }
   PetscFunctionReturn(0);
 }
@@ -113,8 +117,7 @@ static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
 static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
 {
   const PetscReal scale   = pore->theta * dt_f / pore->rho_f;
-  const PetscBool project = (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE &&
-                                        pore->coupling_scheme == PG_SCHEME_PROJECTION);
+  const PetscBool project = PgPoreIsProjected(pore);
   PgPoreArrays    s;
 
   PetscFunctionBeginUser;
@@ -130,4 +133,4 @@ static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
   PetscFunctionReturn(0);
 }
 
-const PgFluidScheme PgSchemeNavierStokes = {"ns", Predict, Source, Correct};
+const PgFluidScheme PgSchemeNavierStokes = {"ns", Predict, Source, NULL, Correct};

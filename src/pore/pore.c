@@ -15,6 +15,8 @@ static const char *const guess_words[]             = {"characteristic", "last"};
 static PetscErrorCode RegisterFields(PgPore pore)
 {
   enum { STATE = PG_FIELD_MIGRATE | PG_FIELD_HALO | PG_FIELD_RESTART, KEPT = PG_FIELD_MIGRATE | PG_FIELD_RESTART };
+  /* a field of the room dem; here the ghosts' values count, too */
+  const PgFieldInfo plate = {"plate", 1, "1", "", PG_FIELD_HALO};
   const struct {
     PgField    *field;
     PgFieldInfo info;
@@ -34,7 +36,7 @@ static PetscErrorCode RegisterFields(PgPore pore)
       {&pore->drag, {"drag", 2, "N/m3", "force of the discs on the water, Eqs. 20-23", STATE}},
       {&pore->Q, {"fluid_acceleration", 2, "m/s2", "forces on the water per mass, Eq. 41", STATE}},
       {&pore->side, {"side", 1, "1", "bit s: formed side s (left, right, bottom, top) at the start", KEPT}},
-      {&pore->surface, {"surface", 1, "1", "1: came to a drained surface later", KEPT}},
+      {&pore->surface, {"surface", 1, "1", "1: came to the surface later", KEPT}},
       {&pore->detached, {"detached", 1, "1", "1: outside the water", KEPT}},
       {&pore->divergence, {"solid_divergence", 1, "1/s", "div v at the end of the fluid step", KEPT}},
   };
@@ -43,7 +45,7 @@ static PetscErrorCode RegisterFields(PgPore pore)
   for (size_t i = 0; i < sizeof table / sizeof *table; i++)
     PetscCall(PgParticlesRegisterField(pore->particles, &table[i].info, table[i].field));
   PetscCall(PgParticlesFindField(pore->particles, "fluid_force", &pore->fluid_force));
-  PetscCall(PgParticlesFindField(pore->particles, "plate", &pore->plate));
+  PetscCall(PgParticlesRegisterField(pore->particles, &plate, &pore->plate));
   PetscCall(PgParticlesFindField(pore->particles, "volume", &pore->volume));
   PetscCall(PgParticlesFindField(pore->particles, "pressure", &pore->p));
   PetscCall(PgParticlesFindField(pore->particles, "pressure_fixed", &pore->p_fixed));
@@ -78,6 +80,7 @@ PetscErrorCode PgPoreCreate(PgParticles particles, PgNeighbors neighbors, PgFlui
   p->guard_pressure   = 1.0e9;
   p->guard_speed      = 1.0e3;
   p->grad_p_revision  = -1;
+  p->advice           = "";
   for (int s = 0; s < PG_SIDE_COUNT; s++) p->boundary[s] = (PgBoundary){PG_BC_DRAINED, p->p_initial, 0.0};
   PetscCall(PgDragLawFind("ergun_wen_yu", &p->drag_law));
   PetscCall(PgSphCreate(particles, neighbors, &p->sph));

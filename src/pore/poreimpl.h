@@ -16,8 +16,10 @@ typedef struct {
   const char *name;
   /* From the state of t_n: intermediate velocity, characteristic pressure, force on the discs. */
   PetscErrorCode (*predict)(PgPore pore, PetscReal dt_f);
-  /* Right-hand side Z of lap p = Z at t_n+1. */
+  /* Right-hand side Z of lap p = Z, or of div(kappa grad p) = Z where there is a mobility, at t_n+1. */
   PetscErrorCode (*source)(PgPore pore, PetscReal dt_f, PetscReal Z[]);
+  /* kappa at t_n+1, unless it is the same everywhere and was divided out of Z. May be NULL. */
+  PetscErrorCode (*mobility)(PgPore pore, PetscReal dt_f, PetscReal kappa[], PetscBool *uniform);
   /* Velocities of water and discs from the new pressure gradient. */
   PetscErrorCode (*correct)(PgPore pore, PetscReal dt_f);
 } PgFluidScheme;
@@ -104,6 +106,8 @@ PETSC_INTERN PetscErrorCode PgBoundaryUpdate(PgPore pore);
 PETSC_INTERN PetscErrorCode PgBoundaryVelocity(PgPore pore, const PgPoreArrays *s, PetscReal u[]);
 /* Inflow [m/s] through the flux sides of disc a times its width 2r [m2/s]. */
 PETSC_INTERN PetscReal PgBoundaryInflow(PgPore pore, const PgPoreArrays *s, PetscInt a);
+/* Outward component of F on impermeable and flux sides of disc a times its width 2r. */
+PETSC_INTERN PetscReal PgBoundaryForce(PgPore pore, const PgPoreArrays *s, const PetscReal F[], PetscInt a);
 
 /* F^sf on the water at owned discs, zero where detached [N/m3]. */
 PETSC_INTERN PetscErrorCode PgDragForce(PgPore pore, const PgPoreArrays *s, const PetscReal u[], PetscReal F[]);
@@ -113,7 +117,25 @@ PETSC_INTERN PetscErrorCode PgCharacteristic(PgPore pore, const PgPoreArrays *s,
                                              PetscReal p_f[]);
 PETSC_INTERN PetscErrorCode PgPressureGradient(PgPore pore);
 
+static inline PetscBool PgPoreIsProjected(PgPore pore)
+{
+  return (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE && pore->coupling_scheme == PG_SCHEME_PROJECTION);
+}
+
+/* Discs that the two-phase projection moves. */
 static inline PetscBool PgPoreIsFree(const PgPoreArrays *s, PetscInt a)
 {
   return (PetscBool)(s->plate[a] == 0.0 && s->detached[a] == 0.0);
+}
+
+/* Discs whose equation has the added mass: those that the projection moves, and those on a plate next to them, since
+   div v sees the neighbours move. Without it on the plates their equations ask for pressures that are too large by the
+   whole factor, and the coupling grows without bound from any plate that is not drained. */
+static inline PetscBool PgPoreHasAddedMass(const PgPoreArrays *s, const PgSphCoefficients *c, PetscInt a)
+{
+  if (s->detached[a] != 0.0) return PETSC_FALSE;
+  if (s->plate[a] == 0.0) return PETSC_TRUE;
+  for (PetscInt k = c->ptr[a]; k < c->ptr[a + 1]; k++)
+    if (c->weight[k] > 0.0 && s->plate[c->col[k]] == 0.0) return PETSC_TRUE;
+  return PETSC_FALSE;
 }

@@ -135,6 +135,22 @@ PetscErrorCode PgPoreSetUp(PgPore pore, PetscReal dt_f)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgPoreRestart(PgPore pore)
+{
+  PgPoreArrays s;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPoreRefresh(pore));
+  PetscCall(PgPoreGetArrays(pore, &s));
+  pore->stats.surface = pore->stats.detached = 0;
+  for (PetscInt a = 0; a < s.owned; a++) {
+    pore->stats.surface += s.surface[a] != 0.0;
+    pore->stats.detached += s.detached[a] != 0.0;
+  }
+  PetscCall(PgPressureUpdate(pore->pressure, NULL));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPoreRefresh(PgPore pore)
 {
   PgField      fields[3] = {pore->u, PG_VELOCITY, pore->p};
@@ -209,6 +225,7 @@ PetscErrorCode PgPoreCorrect(PgPore pore, PetscReal dt_f)
 {
   PgPoreArrays s;
   PetscReal   *before;
+  PetscBool    uniform  = PETSC_TRUE;
   PgField      velocity = PG_VELOCITY;
 
   PetscFunctionBeginUser;
@@ -225,7 +242,8 @@ PetscErrorCode PgPoreCorrect(PgPore pore, PetscReal dt_f)
   PetscCall(PgBoundaryUpdate(pore));
   PetscCall(PgStagePop());
   PetscCall(Source(pore, dt_f));
-  PetscCall(PgPressureUpdate(pore->pressure, NULL));
+  if (pore->scheme->mobility) PetscCall(pore->scheme->mobility(pore, dt_f, pore->b, &uniform));
+  PetscCall(PgPressureUpdate(pore->pressure, uniform ? NULL : pore->b));
   PetscCall(PgPressureSolve(pore->pressure, pore->Z, &pore->stats.pressure));
   PetscCall(Velocities(pore, dt_f));
   PetscFunctionReturn(0);
