@@ -54,7 +54,7 @@ typedef struct {
    it), plate, plate_spring, plate_reaction, contact_share, coordination_number, stress and the ragged data
    contact_history. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemCreate(PgParticles particles, PgNeighbors neighbors, PgDem *dem);
-/* Reads -dem_*, the contact law -dem_contact_law among them, and -plate_friction. Collective. */
+/* Reads -dem_*, the contact law -dem_contact_law among them, -plate_friction and -wall_*. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemSetFromOptions(PgDem dem);
 PETSC_EXTERN PetscErrorCode PgDemView(PgDem dem, PetscViewer viewer);
 PETSC_EXTERN PetscErrorCode PgDemDestroy(PgDem *dem);
@@ -68,27 +68,33 @@ PETSC_EXTERN PetscErrorCode PgDemGetPlate(PgDem dem, PetscInt index, PgPlate *pl
 PETSC_EXTERN PetscErrorCode PgDemGetPlateCount(PgDem dem, PetscInt *count);
 
 /* A wall: a rigid straight line of infinite length. Discs touch it by the contact law of the discs, with
-   the wall as partner of infinite mass, and remember their contact with it like any other. */
+   the wall as partner of infinite mass that does not turn, and remember their contact with it like any
+   other. Overlap = r - distance of the centre from the line; n from the disc to the line. */
 typedef enum {
   PG_WALL_FIXED,
   PG_WALL_MOVING, /* velocity is prescribed */
-  PG_WALL_SERVO   /* moves along its normal until the force on it is what `stress` asks for */
+  PG_WALL_SERVO   /* moves along its normal until the force on it is what `stress` asks for: in each step at
+                     gain*(target - force), gain = -wall_servo_gain/(k_n dt) over the number of its contacts */
 } PgWallKind;
 typedef struct {
   char       name[32];
   PgWallKind kind;
   PetscReal  point[2], normal[2]; /* a point of the line [m]; unit normal into the discs */
   PetscReal  velocity[2];         /* [m/s]; of a servo wall: what it has now */
-  PetscReal  friction;            /* sliding coefficient mu_s against the wall [1]; < 0: that of the discs */
-  PetscReal  stress;              /* servo: target of normal force over length, compression > 0 [N/m2 = N/m per m] */
-  PetscReal  length;       /* servo: length over which the stress acts [m], 0: distance of the two walls beside it */
+  PetscReal  friction; /* sliding coefficient mu_s against the wall [1]; < 0: -wall_friction, or that of the discs */
+  PetscReal  stress;   /* servo: target of normal force over length, compression > 0 [N/m2 = N/m per m] */
+  PetscReal  length;   /* servo: length over which the stress acts [m]; 0: distance of the two walls beside it, or the
+                        period of x */
   PetscReal  max_velocity; /* servo: bound of its velocity [m/s] */
 } PgWall;
+/* The first wall registers the variable-length data "wall_history". In periodic x a wall must be horizontal. */
 PETSC_EXTERN PetscErrorCode PgDemAddWall(PgDem dem, const PgWall *wall, PetscInt *index);
 PETSC_EXTERN PetscErrorCode PgDemGetWall(PgDem dem, PetscInt index, PgWall *wall);
 PETSC_EXTERN PetscErrorCode PgDemSetWall(PgDem dem, PetscInt index, const PgWall *wall);
 PETSC_EXTERN PetscErrorCode PgDemGetWallCount(PgDem dem, PetscInt *count);
-/* Force of the discs on a wall [N/m], exact sum over discs. Collective. */
+/* How far a wall has moved along its normal since it was added [m]. */
+PETSC_EXTERN PetscErrorCode PgDemGetWallDisplacement(PgDem dem, PetscInt index, PetscReal *displacement);
+/* Force of the discs on a wall at the last evaluation [N/m], exact sum over discs. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemGetWallForce(PgDem dem, PetscInt index, PetscReal force[2]);
 
 /* Largest stable time step: 2/omega_max, with omega bounded by the stiffest contact when each disc's mass
@@ -97,10 +103,11 @@ PETSC_EXTERN PetscErrorCode PgDemGetWallForce(PgDem dem, PetscInt index, PetscRe
 PETSC_EXTERN PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt);
 
 /* One step of velocity Verlet is KickDrift, [list build, halo], Forces, Kick:
-   KickDrift: v += dt/2 F/m, w += dt/2 T/I, x += dt v, rotation += dt w (owned discs).
-   Forces:    contact forces and moments, plates, gravity, fluid_force and damping at the present
-              positions, tangential increments with the half-step velocities; advances the history by dt.
-              Ghost positions, velocities and spins must be current.
+   KickDrift: v += dt/2 F/m, w += dt/2 T/I, x += dt v, rotation += dt w (owned discs), walls move by dt.
+   Forces:    contact forces and moments, plates, walls, gravity, fluid_force and damping at the present
+              positions, tangential increments with the half-step velocities; advances the history by dt;
+              gives servo walls the velocity of the next step. Ghost positions, velocities and spins must
+              be current.
    Kick:      v += dt/2 F/m, w += dt/2 T/I.
    Forces with dt = 0 evaluates without advancing anything: the start of a run, where changes of the field
    "plate" are taken up too (otherwise at list builds). Collective. */
@@ -122,7 +129,34 @@ PETSC_EXTERN PetscErrorCode PgDemGetLoad(PgDem dem, PetscInt plate, PetscReal *c
 PETSC_EXTERN PetscErrorCode PgDemComputeObservables(PgDem dem);
 /* Translational and rotational kinetic energy of all discs [J/m]. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemKineticEnergy(PgDem dem, PetscReal *energy);
+/* Where energy came from and went to since the start [J/m], in the accounts of the trapezoidal rule: work of a
+   force in a step is its mean before and after, times the way at the half-step velocity. */
+typedef struct {
+  PetscReal kinetic;                                                          /* now, translation and rotation */
+  PetscReal elastic_normal, elastic_sliding, elastic_rolling, elastic_moment; /* now, in contacts and plate springs */
+  PetscReal friction_sliding, friction_rolling, friction_moment;              /* taken by slip at the caps */
+  PetscReal dashpots;                                                         /* and where a normal force is clipped */
+  PetscReal local_damping, global_damping;                                    /* taken by damping */
+  PetscReal rolling_excess; /* taken from the discs by the rolling force F_r beyond what its spring gets: F_r acts
+                               on the sliding of the contact points, its spring on rolling (and the cap of F_s + F_r) */
+  PetscReal work_plates, work_walls, work_gravity, work_external; /* given to the discs */
+  PetscReal work_fluid; /* by fluid_force, and by changes of velocity between the steps (pressure projection) */
+  PetscReal residual;   /* what does not add up: now + taken - given - start; second order in the time step */
+} PgEnergy;
+/* Keeps the accounts (also: -dem_energy), in the fields energy_account and energy_force; friction_energy is filled by
+   PgDemComputeObservables(). To be called before the first evaluation, which is the start. */
+PETSC_EXTERN PetscErrorCode PgDemSetEnergy(PgDem dem, PetscBool on);
+PETSC_EXTERN PetscErrorCode PgDemHasEnergy(PgDem dem, PetscBool *on);
+/* Exact sums over discs. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemGetEnergy(PgDem dem, PgEnergy *energy);
 /* Stops the run (error with step, time, particle id, position and values) when a velocity or force is not
    finite, a disc is faster than -dem_guard_speed, or an overlap exceeds -dem_guard_overlap times the
    smaller radius. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemGuard(PgDem dem, PetscInt step, PetscReal time);
+
+/* Adds what a checkpoint must hold beside fields and histories: walls and plates. Addresses stay valid until a wall
+   or plate is added. */
+PETSC_EXTERN PetscErrorCode PgDemAddState(PgDem dem, PgState state);
+/* Refuses restored values that no run can have produced: masses, radii, plates, partners of the contact history.
+   Collective. */
+PETSC_EXTERN PetscErrorCode PgDemCheckState(PgDem dem, const char file[]);

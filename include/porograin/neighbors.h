@@ -43,5 +43,8 @@ PETSC_EXTERN PetscErrorCode PgNeighborsNeedBuild(PgNeighbors neighbors, PetscBoo
 PETSC_EXTERN PetscErrorCode PgNeighborsBuild(PgNeighbors neighbors);
 /* Number of builds so far: whatever is kept per list entry is stale when it has changed. */
 PETSC_EXTERN PetscErrorCode PgNeighborsGetRevision(PgNeighbors neighbors, PetscInt *revision);
+/* Skin of the lists [m]. No disc is further than half of it from where it was at the build when
+   PgNeighborsNeedBuild() has said no. After the first build. */
+PETSC_EXTERN PetscErrorCode PgNeighborsGetSkin(PgNeighbors neighbors, PetscReal *skin);
 PETSC_EXTERN PetscErrorCode PgNeighborsGetContacts(PgNeighbors neighbors, PgContactList *list);
 PETSC_EXTERN PetscErrorCode PgNeighborsGetRows(PgNeighbors neighbors, PgRowList *list);

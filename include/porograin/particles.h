@@ -101,6 +101,10 @@ PETSC_EXTERN PetscErrorCode PgParticlesDistribute(PgParticles particles, PetscRe
 /* Test hook: the next distribution cuts the curve anew, with the pieces shifted by `shift` ranks, so
    that almost every disc migrates. Collective. */
 PETSC_EXTERN PetscErrorCode PgParticlesForceMigration(PgParticles particles, PetscInt shift);
+/* Makes the next distribution the same as that of a new store with these discs: grid, cuts and order follow from
+   positions and ids alone (checkpoints call it, so that a restarted run and the one that wrote the checkpoint go
+   on alike). Collective. */
+PETSC_EXTERN PetscErrorCode PgParticlesForgetPartition(PgParticles particles);
 /* Counts distributions that changed the local numbering: whatever is kept per local index is stale when
    it has changed. */
 PETSC_EXTERN PetscErrorCode PgParticlesGetRevision(PgParticles particles, PetscInt *revision);

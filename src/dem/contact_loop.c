@@ -49,7 +49,7 @@ static inline __attribute__((always_inline)) void Gather(PetscInt n, const Petsc
 static inline __attribute__((always_inline)) void Law(PetscInt n, const PgContactParameters *p, PetscReal dt,
                                                       const Block *b, PetscReal *PETSC_RESTRICT f_s,
                                                       PetscReal *PETSC_RESTRICT f_r, PetscReal *PETSC_RESTRICT m_r,
-                                                      PetscReal *PETSC_RESTRICT result)
+                                                      PetscReal *PETSC_RESTRICT result, PetscReal *PETSC_RESTRICT lost)
 {
   for (PetscInt k = 0; k < n; k++) {
     const PetscReal  d = PgDemLength(b->dx[k], b->dy[k]), e = 1 / d;
@@ -64,7 +64,7 @@ static inline __attribute__((always_inline)) void Law(PetscInt n, const PgContac
     motion.sliding_rate = (b->uy[k] * nx - b->ux[k] * ny) + spin;
     motion.rolling_rate = -spin;
     motion.spin_rate    = b->w_a[k] - b->w_j[k];
-    f                   = PgLi2007(p, &motion, dt, &h);
+    f                   = PgLi2007(p, &motion, dt, &h, lost ? &lost[3 * k] : NULL);
     f_s[k]              = h.f_s;
     f_r[k]              = h.f_r;
     m_r[k]              = h.m_r;
@@ -75,9 +75,9 @@ static inline __attribute__((always_inline)) void Law(PetscInt n, const PgContac
   }
 }
 
-PG_DEM_CLONES
-void PgDemContactLoopLi2007(const PgContactParameters *parameters, const PgContactList *list, const PgDemDiscs *discs,
-                            PetscReal dt, const PgDemPairs *pairs)
+static inline __attribute__((always_inline)) void Loop(const PgContactParameters *parameters, const PgContactList *list,
+                                                       const PgDemDiscs *discs, PetscReal dt, const PgDemPairs *pairs,
+                                                       PetscBool energy)
 {
   const PgContactParameters p = *parameters;
   Block                     block;
@@ -85,11 +85,28 @@ void PgDemContactLoopLi2007(const PgContactParameters *parameters, const PgConta
 
   for (; first + BLOCK <= list->padded; first += BLOCK) {
     Gather(BLOCK, list->low + first, list->high + first, discs, &block);
-    Law(BLOCK, &p, dt, &block, pairs->f_s + first, pairs->f_r + first, pairs->m_r + first, pairs->result + 4 * first);
+    Law(BLOCK, &p, dt, &block, pairs->f_s + first, pairs->f_r + first, pairs->m_r + first, pairs->result + 4 * first,
+        energy ? pairs->lost + 3 * first : NULL);
   }
   if (first < list->padded) {
     const PetscInt rest = list->padded - first;
     Gather(rest, list->low + first, list->high + first, discs, &block);
-    Law(rest, &p, dt, &block, pairs->f_s + first, pairs->f_r + first, pairs->m_r + first, pairs->result + 4 * first);
+    Law(rest, &p, dt, &block, pairs->f_s + first, pairs->f_r + first, pairs->m_r + first, pairs->result + 4 * first,
+        energy ? pairs->lost + 3 * first : NULL);
   }
+}
+
+PG_DEM_CLONES
+void PgDemContactLoopLi2007(const PgContactParameters *parameters, const PgContactList *list, const PgDemDiscs *discs,
+                            PetscReal dt, const PgDemPairs *pairs)
+{
+  Loop(parameters, list, discs, dt, pairs, PETSC_FALSE);
+}
+
+/* A separate instance, so that runs without energy accounts do not pay for them. */
+PG_DEM_CLONES
+void PgDemContactLoopEnergyLi2007(const PgContactParameters *parameters, const PgContactList *list,
+                                  const PgDemDiscs *discs, PetscReal dt, const PgDemPairs *pairs)
+{
+  Loop(parameters, list, discs, dt, pairs, PETSC_TRUE);
 }

@@ -2,9 +2,18 @@
    it; then no frequency of the whole is above the highest frequency of one spring with its shares. */
 #include "demimpl.h"
 
-/* Number of springs that share a disc: touching discs and its plate, or, when no pair of the whole packing
-   touches, all pairs of the list. Collective. */
-static PetscErrorCode CountShares(PgDem dem, const PgContactList *list, const PgDemDiscs *discs, PetscBool *all)
+/* Whether disc i counts as one that touches wall k, or, with `all`, as one that may. */
+static PetscBool AtWall(PgDem dem, const PgDemDiscs *discs, PetscInt i, PetscInt k, PetscBool all, PetscReal skin)
+{
+  const PetscReal r = discs->radius[i], overlap = PgDemWallOverlap(&dem->walls[k]->wall, &discs->position[2 * i], r);
+
+  return all ? (PetscBool)(overlap > -skin) : PgDemTouching(overlap, r, r);
+}
+
+/* Number of springs that share a disc: touching discs, walls and its plate, or, when no pair of the whole
+   packing touches nor any disc a wall, all pairs of the list and walls within the skin. Collective. */
+static PetscErrorCode CountShares(PgDem dem, const PgContactList *list, const PgDemDiscs *discs, PetscReal skin,
+                                  PetscBool *all)
 {
   PetscInt    owned;
   PetscReal  *share, *plate;
@@ -24,10 +33,18 @@ static PetscErrorCode CountShares(PgDem dem, const PgContactList *list, const Pg
       share[i] += 1;
       touch = 1;
     }
+    for (PetscInt k = 0; k < dem->wall_count; k++) {
+      if (!AtWall(dem, discs, i, k, PETSC_FALSE, skin)) continue;
+      share[i] += 1;
+      touch = 1;
+    }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &touch, 1, MPI_INT, MPI_MAX, PgParticlesComm(dem->particles)));
   *all = (PetscBool)!touch;
-  for (PetscInt i = 0; *all && i < owned; i++) share[i] += (PetscReal)(list->ptr[i + 1] - list->ptr[i]);
+  for (PetscInt i = 0; *all && i < owned; i++) {
+    share[i] += (PetscReal)(list->ptr[i + 1] - list->ptr[i]);
+    for (PetscInt k = 0; k < dem->wall_count; k++) share[i] += AtWall(dem, discs, i, k, PETSC_TRUE, skin);
+  }
   PetscCall(PgParticlesHalo(dem->particles, 1, &dem->share));
   PetscFunctionReturn(0);
 }
@@ -55,14 +72,15 @@ PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt)
 {
   PgContactList list;
   PgDemDiscs    discs;
-  PetscReal    *share, *m, *plate, limit = PETSC_MAX_REAL;
+  PetscReal    *share, *m, *plate, skin, limit = PETSC_MAX_REAL;
   PetscInt      owned;
   PetscBool     all = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(PgNeighborsGetContacts(dem->neighbors, &list));
   PetscCall(PgDemGetDiscs_Private(dem, &discs));
-  PetscCall(CountShares(dem, &list, &discs, &all));
+  PetscCall(PgNeighborsGetSkin(dem->neighbors, &skin));
+  PetscCall(CountShares(dem, &list, &discs, skin, &all));
   PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
   PetscCall(PgParticlesGetArray(dem->particles, dem->share, &share));
   PetscCall(PgParticlesGetArray(dem->particles, PG_MASS, &m));
@@ -76,6 +94,12 @@ PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt)
     if (!all && !PgDemTouching(PgDemPairGeometry(&discs, a, j, n), r_a, r_j)) continue;
     limit = PetscMin(
         limit, ContactLimit(&dem->parameters, z_a + z_j, 2 * (z_a + z_j), 2 * (z_a / (r_a * r_a) + z_j / (r_j * r_j))));
+  }
+  for (PetscInt i = 0; i < owned; i++) { /* the other side of a wall contact is of infinite mass */
+    const PetscReal z = share[i] / m[i], r = discs.radius[i];
+    for (PetscInt k = 0; k < dem->wall_count; k++)
+      if (AtWall(dem, &discs, i, k, all, skin))
+        limit = PetscMin(limit, ContactLimit(&dem->parameters, z, 2 * z, 2 * z / (r * r)));
   }
   for (PetscInt i = 0; i < owned; i++)
     if (plate[i] > 0) limit = PetscMin(limit, Limit(dem->parameters.k_s * 3 * share[i] / m[i], 0));

@@ -5,16 +5,17 @@ static PetscErrorCode RegisterFields(PgDem dem)
 {
   const unsigned    kept   = PG_FIELD_MIGRATE | PG_FIELD_RESTART;
   const PgFieldInfo info[] = {
-      {"force", 2, "N/m", "Force on the disc: contacts, plate, gravity, water, external, damping", kept},
-      {"torque", 1, "N", "Moment on the disc: contacts, plate, damping", kept},
+      {"force", 2, "N/m", "Force on the disc: contacts, plate, walls, gravity, water, external, damping", kept},
+      {"torque", 1, "N", "Moment on the disc: contacts, plate, walls, damping", kept},
       {"fluid_force", 2, "N/m", "Force of the pore water on the disc", kept},
       {"external_force", 2, "N/m", "External force on the disc, f^e of Eq. 1", kept},
       {"plate", 1, "1", "1 + index of the plate that moves the disc, 0 for a free disc", kept},
       {"plate_spring", 1, "N/m", "Elastic friction force of the plate on the disc", kept},
       {"plate_reaction", 2, "N/m", "Vertical reaction of the plate to the disc: to its contacts, to all forces", kept},
-      {"coordination_number", 1, "1", "Discs that touch this one, and its plate if that pushes", PG_FIELD_OUTPUT},
+      {"coordination_number", 1, "1", "Discs and walls that touch this one, and its plate if that pushes",
+       PG_FIELD_OUTPUT},
       {"stress", 4, "Pa",
-       "Stress of the contact and plate forces on the disc over pi r^2/(1 - porosity), or over pi r^2 where no "
+       "Stress of the contact, wall and plate forces on the disc over pi r^2/(1 - porosity), or over pi r^2 where no "
        "porosity is known; tension positive",
        PG_FIELD_OUTPUT},
       {"contact_share", 1, "1", "Springs that share the mass of the disc in the critical time step", PG_FIELD_HALO},
@@ -47,10 +48,13 @@ PetscErrorCode PgDemCreate(PgParticles particles, PgNeighbors neighbors, PgDem *
   d->parameters.mu_r       = 0.5;
   d->parameters.mu_theta_r = 1e-4;
   d->plate_friction        = 0.5;
+  d->wall_friction         = -1;
+  d->servo_gain            = 0.5;
   d->guard_overlap         = 0.5;
   d->guard_speed           = 1e3;
   d->lists                 = -1;
   d->plate_discs_made      = -1;
+  d->wall_lists            = -1;
   PetscCall(RegisterFields(d));
   *dem = d;
   PetscFunctionReturn(0);
@@ -63,8 +67,14 @@ PetscErrorCode PgDemDestroy(PgDem *dem)
   PetscFunctionBeginUser;
   if (!d) PetscFunctionReturn(0);
   PetscCall(PetscFree4(d->pairs.f_s, d->pairs.f_r, d->pairs.m_r, d->pairs.result));
+  PetscCall(PetscFree(d->pairs.lost));
   PetscCall(PetscFree(d->plates));
   PetscCall(PetscFree(d->plate_disc));
+  for (PetscInt k = 0; k < d->wall_count; k++) PetscCall(PetscFree(d->walls[k]));
+  PetscCall(PetscFree(d->walls));
+  PetscCall(PetscFree(d->wall_contact));
+  PetscCall(PetscFree(d->wall_spare));
+  PetscCall(PetscFree2(d->servo_sum, d->servo_value));
   PetscCall(PetscFree(d->work));
   PetscCall(PetscFree(d->offset));
   PetscCall(PetscFree(*dem));
@@ -122,7 +132,7 @@ static PetscErrorCode ReadLaw(PgDem dem, PetscOptionItems *PetscOptionsObject)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ReadOptions(PgDem dem, PetscOptionItems *PetscOptionsObject)
+static PetscErrorCode ReadOptions(PgDem dem, PetscOptionItems *PetscOptionsObject, PetscBool *energy)
 {
   PetscFunctionBeginUser;
   PetscCall(ReadLaw(dem, PetscOptionsObject));
@@ -137,6 +147,13 @@ static PetscErrorCode ReadOptions(PgDem dem, PetscOptionItems *PetscOptionsObjec
                          PETSC_MAX_REAL, &dem->global_damping, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-plate_friction", "Friction coefficient of the plates", "1", 0,
                          PETSC_MAX_REAL, &dem->plate_friction, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-wall_friction", "Friction coefficient of the walls; default: -dem_mu_s",
+                         "1", 0, PETSC_MAX_REAL, &dem->wall_friction, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-wall_servo_gain",
+                         "Part of the missing force that a servo wall makes up for in a step", "1", PG_POSITIVE, 1,
+                         &dem->servo_gain, NULL));
+  PetscCall(PgOptionBool(PetscOptionsObject, "-dem_energy", "Keep energy accounts and show them in the history", energy,
+                         NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-dem_guard_overlap",
                          "Stop when an overlap is larger than this part of the smaller radius", "1", PG_POSITIVE, 2,
                          &dem->guard_overlap, NULL));
@@ -147,11 +164,34 @@ static PetscErrorCode ReadOptions(PgDem dem, PetscOptionItems *PetscOptionsObjec
 
 PetscErrorCode PgDemSetFromOptions(PgDem dem)
 {
+  PetscBool energy = dem->energy;
+
   PetscFunctionBeginUser;
   PetscOptionsBegin(PgParticlesComm(dem->particles), NULL, "Solid phase: discs in contact", NULL);
-  PetscCall(ReadOptions(dem, PetscOptionsObject));
+  PetscCall(ReadOptions(dem, PetscOptionsObject, &energy));
   PetscOptionsEnd();
+  PetscCall(PgDemSetEnergy(dem, energy));
   PetscCall(CheckFriction(dem));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ViewWalls(PgDem dem, PetscViewer viewer)
+{
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < dem->wall_count; k++) {
+    const PgWall *w = &dem->walls[k]->wall;
+
+    PetscCall(PetscViewerASCIIPrintf(viewer, "wall %s: through (%g, %g) m, normal (%g, %g), friction %g, ", w->name,
+                                     (double)w->point[0], (double)w->point[1], (double)w->normal[0],
+                                     (double)w->normal[1], (double)PgDemWallFriction_Private(dem, w)));
+    if (w->kind == PG_WALL_FIXED) PetscCall(PetscViewerASCIIPrintf(viewer, "fixed\n"));
+    if (w->kind == PG_WALL_MOVING)
+      PetscCall(
+          PetscViewerASCIIPrintf(viewer, "velocity (%g, %g) m/s\n", (double)w->velocity[0], (double)w->velocity[1]));
+    if (w->kind == PG_WALL_SERVO)
+      PetscCall(PetscViewerASCIIPrintf(viewer, "held at %g N/m2 with at most %g m/s, gain %g\n", (double)w->stress,
+                                       (double)w->max_velocity, (double)dem->servo_gain));
+  }
   PetscFunctionReturn(0);
 }
 
@@ -180,6 +220,7 @@ PetscErrorCode PgDemView(PgDem dem, PetscViewer viewer)
                                        p->side > 0 ? "above" : "below", (double)p->velocity,
                                        (double)PgDemPlateFriction_Private(dem, p)));
   }
+  PetscCall(ViewWalls(dem, viewer));
   PetscCall(PetscViewerASCIIPopTab(viewer));
   PetscFunctionReturn(0);
 }
@@ -235,6 +276,17 @@ PetscErrorCode PgDemGetWork_Private(PgDem dem, PetscInt count, PetscReal **work)
     dem->work_room = count;
   }
   *work = dem->work;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgDemGetOffset_Private(PgDem dem, PetscInt count)
+{
+  PetscFunctionBeginUser;
+  if (count > dem->offset_room) {
+    PetscCall(PetscFree(dem->offset));
+    PetscCall(PetscMalloc1(count, &dem->offset));
+    dem->offset_room = count;
+  }
   PetscFunctionReturn(0);
 }
 

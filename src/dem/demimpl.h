@@ -16,15 +16,35 @@ typedef struct {
 typedef struct {
   PetscReal *f_s, *f_r, *m_r; /* PgContactHistory as one array each */
   PetscReal *result;          /* (4) force on low (x, y) [N/m], torque on low, torque on high [N] */
+  PetscReal *lost;            /* (3) energy taken by the caps in the last step [J/m]; NULL without energy accounts */
 } PgDemPairs;
 
-/* A contact law: of one pair, and of all pairs [0, list->padded) at once with the same bits. */
+/* A wall with what is kept about it. */
+typedef struct {
+  PgWall    wall;
+  PetscReal start[2];  /* its point when it was added [m] */
+  PetscReal listed[2]; /* its point when the wall contacts were listed [m] */
+  PetscInt  servo;     /* number among the servo walls, -1: none */
+} PgDemWall;
+
+/* An owned disc near a wall. */
+typedef struct {
+  PetscInt         disc, wall; /* local index, wall index */
+  PgContactHistory history;
+  PgContactForce   force;   /* on the disc, at the last evaluation */
+  PetscReal        lost[3]; /* energy taken by the caps in the last step [J/m] */
+} PgWallContact;
+enum { PG_WALL_RECORD = 7 }; /* reals of one in "wall_history" */
+
+/* A contact law: of one pair, and of all pairs [0, list->padded) at once with the same bits. `lost` (3) is the energy
+   taken by the caps of sliding, rolling and moment; NULL: not wanted. The second loop fills it, the first does not. */
+typedef void PgContactLoop(const PgContactParameters *parameters, const PgContactList *list, const PgDemDiscs *discs,
+                           PetscReal dt, const PgDemPairs *pairs);
 typedef struct {
   const char *name, *citation;
   PgContactForce (*pair)(const PgContactParameters *parameters, const PgContactMotion *motion, PetscReal dt,
-                         PgContactHistory *history);
-  void (*loop)(const PgContactParameters *parameters, const PgContactList *list, const PgDemDiscs *discs, PetscReal dt,
-               const PgDemPairs *pairs);
+                         PgContactHistory *history, PetscReal lost[]);
+  PgContactLoop *loop, *loop_energy;
 } PgContactLaw;
 
 struct PgDem_s {
@@ -35,6 +55,8 @@ struct PgDem_s {
   PetscReal           local_damping;  /* alpha of Cundall's local damping [1] */
   PetscReal           global_damping; /* viscous, by mass [1/s] */
   PetscReal           plate_friction; /* of plates that do not say [1] */
+  PetscReal           wall_friction;  /* of walls that do not say [1]; < 0: that of the discs */
+  PetscReal           servo_gain;     /* part of the missing force that a servo wall makes up for in a step [1] */
   PetscReal           guard_overlap;  /* largest overlap over the smaller radius [1] */
   PetscReal           guard_speed;    /* [m/s] */
   PetscReal           gravity[2];     /* [m/s2] */
@@ -43,6 +65,9 @@ struct PgDem_s {
   PgField  plate, plate_spring, plate_reaction;
   PgField  coordination, stress, share;
   PgRagged history;
+
+  PetscBool energy; /* accounts are kept, in these fields */
+  PgField   energy_account, energy_force, friction_energy;
 
   PetscInt   pair_room;      /* pairs the arrays have room for */
   PetscInt   lists;          /* revision of the lists the arrays belong to; -1: none yet */
@@ -54,6 +79,17 @@ struct PgDem_s {
   PetscInt  plate_disc_count, plate_disc_room;
   PetscInt *plate_disc;       /* owned discs on plates, ascending local index */
   PetscInt  plate_discs_made; /* revision of the particles when the list was made; -1: to be made */
+
+  PetscInt       wall_count, wall_room;
+  PgDemWall    **walls;
+  PgRagged       wall_history; /* registered with the first wall */
+  PetscInt       wall_contact_count, wall_contact_room, wall_spare_room;
+  PgWallContact *wall_contact, *wall_spare; /* by ascending local index of the disc, then by wall; scratch */
+  PetscInt       wall_lists;                /* revision of the particles that its local indices belong to; -1: none */
+  PetscBool      walls_changed;             /* set by calls: list anew */
+  PetscInt       servo_count, servo_room;
+  PgExactSum    *servo_sum; /* (2) by servo wall: normal force, number of contacts; scratch */
+  PetscReal     *servo_value;
 
   PetscInt   work_room, offset_room;
   PetscReal *work; /* scratch of the calls that are not in every step */
@@ -68,17 +104,16 @@ static inline PetscBool PgDemTouching(PetscReal overlap, PetscReal r_a, PetscRea
   return (PetscBool)(overlap > -1e-9 * PetscMin(r_a, r_j));
 }
 
+#if defined(PETSC_USE_REAL_SINGLE)
+  #define PG_SMALLEST FLT_MIN
+#else
+  #define PG_SMALLEST DBL_MIN
+#endif
+
 /* Length of a vector, never 0: the smallest normal number is lost in the square of any length that a radius
    can be told from, and gives the zero vector a direction 0 instead of a division by zero. Written as a sum
    because a compiler may move a division in front of the choice that guards it. */
-static inline PetscReal PgDemLength(PetscReal x, PetscReal y)
-{
-#if defined(PETSC_USE_REAL_SINGLE)
-  return PetscSqrtReal((x * x + y * y) + FLT_MIN);
-#else
-  return PetscSqrtReal((x * x + y * y) + DBL_MIN);
-#endif
-}
+static inline PetscReal PgDemLength(PetscReal x, PetscReal y) { return PetscSqrtReal((x * x + y * y) + PG_SMALLEST); }
 
 /* n from low to high [1] and overlap [m] of a pair, with the bits of the contact loop. Coincident centres
    have no direction: n = 0, hence no force; the guard reports such an overlap. */
@@ -93,6 +128,20 @@ static inline PetscReal PgDemPairGeometry(const PgDemDiscs *discs, PetscInt a, P
   return (discs->radius[a] + discs->radius[j]) - d;
 }
 
+/* Overlap of a disc with a wall [m]. */
+static inline PetscReal PgDemWallOverlap(const PgWall *wall, const PetscReal x[2], PetscReal r)
+{
+  return r - ((x[0] - wall->point[0]) * wall->normal[0] + (x[1] - wall->point[1]) * wall->normal[1]);
+}
+
+/* Kinetic energy of a disc [J/m], I = m r^2/2. */
+static inline PetscReal PgDemDiscKinetic(const PgDemDiscs *discs, const PetscReal m[], PetscInt i)
+{
+  const PetscReal *v = &discs->velocity[2 * i], spin = discs->radius[i] * discs->spin[i];
+
+  return 0.5 * m[i] * (v[0] * v[0] + v[1] * v[1] + 0.5 * spin * spin);
+}
+
 /* The law in the form both the public function and the loop are made of: operations without branches,
    in one order. */
 static inline PetscReal PgLi2007Clamp(PetscReal value, PetscReal cap)
@@ -103,21 +152,27 @@ static inline PetscReal PgLi2007Clamp(PetscReal value, PetscReal cap)
 
 /* Eqs. 3-6 and 12-15: elastic part advanced, viscous part added, the sum capped. A capped spring keeps
    what stands with the viscous part exactly at the cap. Nothing is left without contact. */
-static inline PetscReal PgLi2007Friction(PetscReal k, PetscReal c, PetscReal rate, PetscReal dt, PetscReal cap,
-                                         PetscReal overlap, PetscReal *elastic)
+static inline __attribute__((always_inline)) PetscReal PgLi2007Friction(PetscReal k, PetscReal c, PetscReal rate,
+                                                                        PetscReal dt, PetscReal cap, PetscReal overlap,
+                                                                        PetscReal *elastic, PetscReal *lost)
 {
-  const PetscReal trial   = *elastic - k * (rate * dt);
+  const PetscReal before  = *elastic;
+  const PetscReal trial   = before - k * (rate * dt);
   const PetscReal viscous = -c * rate;
   const PetscReal total   = trial + viscous;
   const PetscReal capped  = PgLi2007Clamp(total, cap);
   const PetscReal kept    = capped == total ? trial : capped - viscous;
+  const PetscReal stores  = k > 0 ? 1 : 0; /* nothing is left in a spring that is not there */
+  const PetscReal after   = overlap > 0 ? stores * kept : 0;
 
-  *elastic = overlap > 0 ? kept : 0;
+  /* mean force times slip (trial - after)/k; without spring all three are 0 */
+  if (lost) *lost = 0.5 * (before + after) * (trial - after) / (k + PG_SMALLEST);
+  *elastic = after;
   return overlap > 0 ? capped : 0;
 }
 
-static inline PgContactForce PgLi2007(const PgContactParameters *p, const PgContactMotion *m, PetscReal dt,
-                                      PgContactHistory *h)
+static inline __attribute__((always_inline)) PgContactForce
+PgLi2007(const PgContactParameters *p, const PgContactMotion *m, PetscReal dt, PgContactHistory *h, PetscReal lost[])
 {
   PgContactForce  f;
   const PetscReal u        = m->overlap;
@@ -127,15 +182,15 @@ static inline PgContactForce PgLi2007(const PgContactParameters *p, const PgCont
 
   f.F_N = u > 0 ? clipped : 0; /* Eq. 9 */
   N     = -f.F_N;
-  F_s   = PgLi2007Friction(p->k_s, p->c_s, m->sliding_rate, dt, p->mu_s * N, u, &h->f_s);
-  F_r   = PgLi2007Friction(p->k_r, p->c_r, m->rolling_rate, dt, p->mu_r * N, u, &h->f_r);
-  f.M_r = PgLi2007Friction(p->k_theta, p->c_theta, m->spin_rate, dt, p->mu_theta_r * N, u, &h->m_r);
+  F_s   = PgLi2007Friction(p->k_s, p->c_s, m->sliding_rate, dt, p->mu_s * N, u, &h->f_s, lost ? &lost[0] : NULL);
+  F_r   = PgLi2007Friction(p->k_r, p->c_r, m->rolling_rate, dt, p->mu_r * N, u, &h->f_r, lost ? &lost[1] : NULL);
+  f.M_r = PgLi2007Friction(p->k_theta, p->c_theta, m->spin_rate, dt, p->mu_theta_r * N, u, &h->m_r,
+                           lost ? &lost[2] : NULL);
   f.F_T = PgLi2007Clamp(F_s + F_r, p->mu_s * N); /* Eqs. 11, 16, 17 */
   return f;
 }
 
-PETSC_INTERN void PgDemContactLoopLi2007(const PgContactParameters *parameters, const PgContactList *list,
-                                         const PgDemDiscs *discs, PetscReal dt, const PgDemPairs *pairs);
+PETSC_INTERN PgContactLoop PgDemContactLoopLi2007, PgDemContactLoopEnergyLi2007;
 /* The registered laws, ended by an entry without name. */
 PETSC_INTERN const PgContactLaw PgContactLaws[];
 
@@ -147,7 +202,33 @@ PETSC_INTERN PetscErrorCode PgDemImposePlates_Private(PgDem dem);
 PETSC_INTERN PetscErrorCode PgDemUpdatePlateDiscs_Private(PgDem dem);
 /* Friction coefficient of a plate, its own or the default. */
 PETSC_INTERN PetscReal PgDemPlateFriction_Private(PgDem dem, const PgPlate *plate);
+/* Lists the discs near walls anew where that is needed, keeping what they remember. */
+PETSC_INTERN PetscErrorCode PgDemUpdateWallContacts_Private(PgDem dem);
+/* Forces of all walls on their discs, histories advanced by dt. */
+PETSC_INTERN PetscErrorCode PgDemWallForces_Private(PgDem dem, const PgDemDiscs *discs, PetscReal dt);
+/* Velocities of servo walls from the forces on them. Collective. */
+PETSC_INTERN PetscErrorCode PgDemServoWalls_Private(PgDem dem, PetscReal dt);
+PETSC_INTERN void           PgDemMoveWalls_Private(PgDem dem, PetscReal dt);
+/* Force (x, y) and torque on the disc of a wall contact. */
+PETSC_INTERN void PgDemWallContactForce_Private(PgDem dem, const PgWallContact *contact, PetscReal r,
+                                                PetscReal force[3]);
+/* First contact of a disc, or the count of all. */
+PETSC_INTERN PetscInt       PgDemFindWallContact_Private(PgDem dem, PetscInt disc);
+PETSC_INTERN PetscErrorCode PgDemSaveWallHistory_Private(PgDem dem);
+PETSC_INTERN PetscErrorCode PgDemRestoreWallHistory_Private(PgDem dem);
+/* Friction coefficient of a wall, its own or the default. */
+PETSC_INTERN PetscReal PgDemWallFriction_Private(PgDem dem, const PgWall *wall);
+/* Pair forces at the present positions where no evaluation has left them. */
+PETSC_INTERN PetscErrorCode PgDemComputePairs_Private(PgDem dem, const PgContactList *list, const PgDemDiscs *discs);
+/* Energy: what the caps took, and the work of all forces, in half a step of length h that ends (arrival) or begins
+   here; what came between two steps; the start. */
+PETSC_INTERN PetscErrorCode PgDemBookWork_Private(PgDem dem, PetscReal h, PetscBool arrival);
+PETSC_INTERN PetscErrorCode PgDemBookBetween_Private(PgDem dem);
+PETSC_INTERN PetscErrorCode PgDemNoteKinetic_Private(PgDem dem);
+PETSC_INTERN PetscErrorCode PgDemFillFrictionEnergy_Private(PgDem dem);
+enum { PG_ENERGY_FORCES = 10 }; /* local damping (3), global damping (3), fluid (2), external (2) */
+PETSC_INTERN PetscErrorCode PgDemGetFrictionAccount_Private(PgDem dem, PetscReal **account, PetscInt *stride);
+/* dem->offset with room for `count` integers. */
+PETSC_INTERN PetscErrorCode PgDemGetOffset_Private(PgDem dem, PetscInt count);
 /* dem->work with room for `count` reals. */
 PETSC_INTERN PetscErrorCode PgDemGetWork_Private(PgDem dem, PetscInt count, PetscReal **work);
-/* Sum of `count` values on each rank, the same bits on any number of ranks. Collective. */
-PETSC_INTERN PetscErrorCode PgDemSum_Private(MPI_Comm comm, PetscInt count, const PetscReal value[], PetscReal *sum);

@@ -1,4 +1,4 @@
-/* Forces and moments on the owned discs: contacts, plates, gravity, water, damping (Eqs. 1, 2). */
+/* Forces and moments on the owned discs: contacts, plates, walls, gravity, water, damping (Eqs. 1, 2). */
 #include "demimpl.h"
 
 /* Arrays of one evaluation. */
@@ -8,6 +8,9 @@ typedef struct {
   const PetscReal *result; /* by pair */
   const PetscReal *mass, *fluid, *external, *plate;
   PetscReal       *force, *torque, *spring, *reaction;
+  PetscReal       *noted; /* PG_ENERGY_FORCES by disc, NULL without energy accounts */
+  PetscReal       *slid;  /* energy taken by sliding, one by `stride` */
+  PetscInt         stride;
 } Arrays;
 
 typedef struct {
@@ -32,40 +35,89 @@ static inline Sum ContactSum(const Arrays *a, PetscInt i)
   return s;
 }
 
-static inline Sum TotalSum(PgDem dem, const Arrays *a, PetscInt i)
+/* The forces of the walls on disc i, in the order of the walls. */
+static void AddWalls(PgDem dem, const Arrays *a, PetscInt i, Sum *s)
 {
-  Sum s = ContactSum(a, i);
+  for (PetscInt k = PgDemFindWallContact_Private(dem, i); k < dem->wall_contact_count && dem->wall_contact[k].disc == i;
+       k++) {
+    PetscReal f[3];
 
+    PgDemWallContactForce_Private(dem, &dem->wall_contact[k], a->discs.radius[i], f);
+    s->x += f[0];
+    s->y += f[1];
+    s->torque += f[2];
+  }
+}
+
+/* Adds what acts on disc i beside its contacts. */
+static inline Sum TotalSum(PgDem dem, const Arrays *a, PetscInt i, Sum s)
+{
   s.x += a->mass[i] * dem->gravity[0] + a->fluid[2 * i] + a->external[2 * i];
   s.y += a->mass[i] * dem->gravity[1] + a->fluid[2 * i + 1] + a->external[2 * i + 1];
   return s;
 }
 
-/* Cundall's local damping -alpha |F| sign(v) and viscous damping -c m v of one degree of freedom. */
-static inline PetscReal Damped(PgDem dem, PetscReal force, PetscReal velocity, PetscReal inertia)
+/* Cundall's local damping -alpha |F| sign(v) and viscous damping -c m v of one degree of freedom, noted at
+   noted[0] and noted[3] unless that is NULL. */
+static inline PetscReal Damped(PgDem dem, PetscReal force, PetscReal velocity, PetscReal inertia, PetscReal *noted)
 {
-  const PetscReal sign  = velocity > 0 ? 1 : (velocity < 0 ? -1 : 0);
-  const PetscReal local = dem->local_damping * (force < 0 ? -force : force) * sign;
+  const PetscReal sign   = velocity > 0 ? 1 : (velocity < 0 ? -1 : 0);
+  const PetscReal local  = dem->local_damping * (force < 0 ? -force : force) * sign;
+  const PetscReal global = dem->global_damping * inertia * velocity;
 
-  return force - local - dem->global_damping * inertia * velocity;
+  if (noted) {
+    noted[0] = -local;
+    noted[3] = -global;
+  }
+  return force - local - global;
+}
+
+/* What the energy accounts need to know about the forces on disc i beside contacts; no damping yet. */
+static void NoteForces(const Arrays *a, PetscInt i, PetscReal noted[PG_ENERGY_FORCES])
+{
+  for (PetscInt c = 0; c < 6; c++) noted[c] = 0;
+  noted[6] = a->fluid[2 * i];
+  noted[7] = a->fluid[2 * i + 1];
+  noted[8] = a->external[2 * i];
+  noted[9] = a->external[2 * i + 1];
+}
+
+static inline __attribute__((always_inline)) void FreeDisc(PgDem dem, const Arrays *a, PetscInt i, Sum contact,
+                                                           PetscReal *noted)
+{
+  const PetscReal *v = a->discs.velocity, *w = a->discs.spin, *r = a->discs.radius;
+  Sum              s = TotalSum(dem, a, i, contact);
+
+  if (noted) NoteForces(a, i, noted);
+  if (dem->local_damping > 0 || dem->global_damping > 0) {
+    s.x      = Damped(dem, s.x, v[2 * i], a->mass[i], noted);
+    s.y      = Damped(dem, s.y, v[2 * i + 1], a->mass[i], noted ? noted + 1 : NULL);
+    s.torque = Damped(dem, s.torque, w[i], 0.5 * a->mass[i] * r[i] * r[i], noted ? noted + 2 : NULL);
+  }
+  a->force[2 * i]     = s.x;
+  a->force[2 * i + 1] = s.y;
+  a->torque[i]        = s.torque;
 }
 
 static void FreeDiscs(PgDem dem, const Arrays *a, PetscInt owned)
 {
-  const PetscBool  damped = (PetscBool)(dem->local_damping > 0 || dem->global_damping > 0);
-  const PetscReal *v = a->discs.velocity, *w = a->discs.spin, *r = a->discs.radius;
+  if (a->noted)
+    for (PetscInt i = 0; i < owned; i++) FreeDisc(dem, a, i, ContactSum(a, i), &a->noted[PG_ENERGY_FORCES * i]);
+  else
+    for (PetscInt i = 0; i < owned; i++) FreeDisc(dem, a, i, ContactSum(a, i), NULL);
+}
 
-  for (PetscInt i = 0; i < owned; i++) {
-    Sum s = TotalSum(dem, a, i);
+/* Discs near walls, computed anew over what FreeDiscs() left. */
+static void WallDiscs(PgDem dem, const Arrays *a)
+{
+  for (PetscInt k = 0; k < dem->wall_contact_count; k++) {
+    const PetscInt i = dem->wall_contact[k].disc;
+    Sum            contact;
 
-    if (damped) {
-      s.x      = Damped(dem, s.x, v[2 * i], a->mass[i]);
-      s.y      = Damped(dem, s.y, v[2 * i + 1], a->mass[i]);
-      s.torque = Damped(dem, s.torque, w[i], 0.5 * a->mass[i] * r[i] * r[i]);
-    }
-    a->force[2 * i]     = s.x;
-    a->force[2 * i + 1] = s.y;
-    a->torque[i]        = s.torque;
+    if (k > 0 && dem->wall_contact[k - 1].disc == i) continue;
+    contact = ContactSum(a, i);
+    AddWalls(dem, a, i, &contact);
+    FreeDisc(dem, a, i, contact, a->noted ? &a->noted[PG_ENERGY_FORCES * i] : NULL);
   }
 }
 
@@ -75,23 +127,29 @@ static void PlateDisc(PgDem dem, const Arrays *a, PetscInt i, PetscReal dt)
 {
   const PgPlate  *p    = &dem->plates[(PetscInt)a->plate[i] - 1];
   const PetscReal side = p->side > 0 ? 1 : -1, r = a->discs.radius[i];
-  const PetscReal v = a->discs.velocity[2 * i], w = a->discs.spin[i];
-  const Sum       contact = ContactSum(a, i);
-  Sum             s       = TotalSum(dem, a, i);
-  PetscReal       cap;
+  const PetscReal v = a->discs.velocity[2 * i], w = a->discs.spin[i], before = a->spring[i];
+  PetscReal      *noted   = a->noted ? &a->noted[PG_ENERGY_FORCES * i] : NULL;
+  Sum             contact = ContactSum(a, i), s;
+  PetscReal       cap, trial;
 
+  if (dem->wall_count) AddWalls(dem, a, i, &contact);
+  s                      = TotalSum(dem, a, i, contact);
   a->reaction[2 * i]     = side * contact.y;
   a->reaction[2 * i + 1] = side * s.y;
   a->force[2 * i]        = 0;
   a->force[2 * i + 1]    = 0;
   a->torque[i]           = 0;
+  if (noted) NoteForces(a, i, noted);
   if (p->hold) return;
   cap          = PgDemPlateFriction_Private(dem, p) * PetscMax(side * s.y, 0);
-  a->spring[i] = PgLi2007Clamp(a->spring[i] - dem->parameters.k_s * ((v - side * r * w) * dt), cap);
+  trial        = before - dem->parameters.k_s * ((v - side * r * w) * dt);
+  a->spring[i] = PgLi2007Clamp(trial, cap);
+  if (noted && dem->parameters.k_s > 0)
+    a->slid[a->stride * i] += 0.5 * (before + a->spring[i]) * (trial - a->spring[i]) / dem->parameters.k_s;
   s.x += a->spring[i];
   s.torque -= side * r * a->spring[i];
-  a->force[2 * i] = Damped(dem, s.x, v, a->mass[i]);
-  a->torque[i]    = Damped(dem, s.torque, w, 0.5 * a->mass[i] * r * r);
+  a->force[2 * i] = Damped(dem, s.x, v, a->mass[i], noted);
+  a->torque[i]    = Damped(dem, s.torque, w, 0.5 * a->mass[i] * r * r, noted ? noted + 2 : NULL);
 }
 
 PetscErrorCode PgDemGetContacts_Private(PgDem dem, PgContactList *list)
@@ -120,6 +178,10 @@ static PetscErrorCode GetArrays(PgDem dem, Arrays *a)
   PetscCall(PgParticlesGetArray(dem->particles, dem->torque, &a->torque));
   PetscCall(PgParticlesGetArray(dem->particles, dem->plate_spring, &a->spring));
   PetscCall(PgParticlesGetArray(dem->particles, dem->plate_reaction, &a->reaction));
+  a->noted = a->slid = NULL;
+  if (!dem->energy) PetscFunctionReturn(0);
+  PetscCall(PgParticlesGetArray(dem->particles, dem->energy_force, &a->noted));
+  PetscCall(PgDemGetFrictionAccount_Private(dem, &a->slid, &a->stride));
   PetscFunctionReturn(0);
 }
 
@@ -133,10 +195,19 @@ PetscErrorCode PgDemForces(PgDem dem, PetscReal dt)
   if (dt == 0) dem->plate_discs_made = -1; /* the start of a run: the case may have assigned plates since */
   PetscCall(PgDemUpdatePlateDiscs_Private(dem));
   PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
-  dem->law->loop(&dem->parameters, &a.list, &a.discs, dt, &dem->pairs);
+  if (dem->energy)
+    dem->law->loop_energy(&dem->parameters, &a.list, &a.discs, dt, &dem->pairs);
+  else
+    dem->law->loop(&dem->parameters, &a.list, &a.discs, dt, &dem->pairs);
   dem->pairs_computed = PETSC_TRUE;
   FreeDiscs(dem, &a, owned);
+  if (dem->wall_count) {
+    PetscCall(PgDemWallForces_Private(dem, &a.discs, dt));
+    WallDiscs(dem, &a);
+  }
   for (PetscInt k = 0; k < dem->plate_disc_count; k++) PlateDisc(dem, &a, dem->plate_disc[k], dt);
+  if (dem->energy) PetscCall(PgDemBookWork_Private(dem, 0.5 * dt, PETSC_TRUE)); /* walls still move as they did */
+  if (dem->wall_count) PetscCall(PgDemServoWalls_Private(dem, dt));
   PetscCall(PetscLogFlops(85.0 * a.list.count + 8.0 * owned));
   PetscFunctionReturn(0);
 }

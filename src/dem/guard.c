@@ -6,7 +6,7 @@ typedef enum { FINE, OVERLAP, FAST, NOT_FINITE } Trouble;
 /* The worst disc of a rank: by kind of trouble, then by how bad, then by permanent id. */
 typedef struct {
   Trouble   kind;
-  PetscInt  disc, partner; /* local indices */
+  PetscInt  disc, partner; /* local indices; partner < 0: wall -1 - partner */
   PetscReal value;         /* overlap fraction, or speed */
 } Offender;
 
@@ -62,6 +62,24 @@ static PetscErrorCode WorstPair(PgDem dem, const PgDemDiscs *discs, const PetscI
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode WorstAtWall(PgDem dem, const PgDemDiscs *discs, const PetscInt id[], Offender *worst)
+{
+  PetscInt owned;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
+  for (PetscInt k = 0; k < dem->wall_count; k++) {
+    for (PetscInt i = 0; i < owned; i++) {
+      const PetscReal r    = discs->radius[i];
+      const PetscReal part = PgDemWallOverlap(&dem->walls[k]->wall, &discs->position[2 * i], r) / r;
+
+      if (part > dem->guard_overlap && Worse(OVERLAP, part, id[i], worst, id))
+        *worst = (Offender){OVERLAP, i, -1 - k, part};
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode WorstKind(MPI_Comm comm, const Offender *mine, Trouble *kind)
 {
   PetscMPIInt k = (PetscMPIInt)mine->kind;
@@ -92,8 +110,16 @@ static PetscErrorCode Agree(PgDem dem, const PgDemDiscs *discs, const PetscInt i
   PetscCall(PgParticlesGetArray(dem->particles, dem->torque, &torque));
   if (rank == winner) {
     const PetscReal *x = &discs->position[2 * i], *v = &discs->velocity[2 * i];
-    const PetscReal  all[SENT] = {
-         (PetscReal)id[i], x[0], x[1], v[0], v[1], discs->spin[i], mine->value, (PetscReal)id[mine->partner], 0, 0};
+    const PetscReal  all[SENT] = {(PetscReal)id[i],
+                                  x[0],
+                                  x[1],
+                                  v[0],
+                                  v[1],
+                                  discs->spin[i],
+                                  mine->value,
+                                 mine->partner < 0 ? (PetscReal)mine->partner : (PetscReal)id[mine->partner],
+                                  0,
+                                  0};
 
     PetscCall(PetscArraycpy(sent, all, SENT));
     if (kind == NOT_FINITE) { /* an owned disc: it has a force */
@@ -123,6 +149,7 @@ PetscErrorCode PgDemGuard(PgDem dem, PetscInt step, PetscReal time)
   PetscCall(WorstKind(comm, &worst, &kind));
   if (kind != NOT_FINITE) { /* distances mean nothing then */
     PetscCall(WorstPair(dem, &discs, id, &worst));
+    PetscCall(WorstAtWall(dem, &discs, id, &worst));
     PetscCall(WorstKind(comm, &worst, &kind));
   }
   if (kind == FINE) PetscFunctionReturn(0);
@@ -136,6 +163,9 @@ PetscErrorCode PgDemGuard(PgDem dem, PetscInt step, PetscReal time)
                (double)s[9]);
   if (kind == FAST)
     PgRunError(comm, "%s: speed %g m/s is above -dem_guard_speed %g", where, (double)s[6], (double)dem->guard_speed);
+  if (s[7] < 0)
+    PgRunError(comm, "%s: overlap with wall %s is %g of the radius, above -dem_guard_overlap %g", where,
+               dem->walls[-1 - (PetscInt)s[7]]->wall.name, (double)s[6], (double)dem->guard_overlap);
   PgRunError(comm, "%s: overlap with disc %" PetscInt_FMT " is %g of the smaller radius, above -dem_guard_overlap %g",
              where, (PetscInt)s[7], (double)s[6], (double)dem->guard_overlap);
 }

@@ -10,11 +10,7 @@ static PetscErrorCode CountRecords(PgDem dem, const PgContactList *list, PetscIn
   const PgDemPairs *p = &dem->pairs;
 
   PetscFunctionBeginUser;
-  if (owned + 1 > dem->offset_room) {
-    PetscCall(PetscFree(dem->offset));
-    PetscCall(PetscMalloc1(owned + 1, &dem->offset));
-    dem->offset_room = owned + 1;
-  }
+  PetscCall(PgDemGetOffset_Private(dem, owned + 1));
   dem->offset[0] = 0;
   for (PetscInt i = 0; i < owned; i++) {
     dem->offset[i + 1] = dem->offset[i];
@@ -57,6 +53,7 @@ PetscErrorCode PgDemSaveHistory(PgDem dem)
     }
   }
   PetscCall(PgParticlesSetRagged(dem->particles, dem->history, dem->offset, record));
+  PetscCall(PgDemSaveWallHistory_Private(dem));
   PetscFunctionReturn(0);
 }
 
@@ -66,10 +63,12 @@ static PetscErrorCode GrowPairs(PgDem dem, PetscInt padded)
   PetscInt    room;
 
   PetscFunctionBeginUser;
-  if (padded <= dem->pair_room) PetscFunctionReturn(0);
+  if (padded <= dem->pair_room && !(dem->energy && !p->lost)) PetscFunctionReturn(0);
   room = padded + padded / 8; /* the list of a deforming packing grows a little at a time */
   PetscCall(PetscFree4(p->f_s, p->f_r, p->m_r, p->result));
   PetscCall(PetscMalloc4(room, &p->f_s, room, &p->f_r, room, &p->m_r, 4 * room, &p->result));
+  PetscCall(PetscFree(p->lost));
+  if (dem->energy) PetscCall(PetscMalloc1(3 * room, &p->lost));
   dem->pair_room = room;
   PetscFunctionReturn(0);
 }
@@ -103,6 +102,7 @@ PetscErrorCode PgDemRestoreHistory(PgDem dem)
       break;
     }
   }
+  PetscCall(PgDemRestoreWallHistory_Private(dem));
   PetscCall(PgNeighborsGetRevision(dem->neighbors, &dem->lists));
   dem->pairs_computed = PETSC_FALSE;
   PetscFunctionReturn(0);

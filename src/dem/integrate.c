@@ -34,8 +34,12 @@ PetscErrorCode PgDemKickDrift(PgDem dem, PetscReal dt)
   PetscReal *restrict x, *restrict q, *v, *w;
 
   PetscFunctionBeginUser;
-  PetscCall(PgDemImposePlates_Private(dem));
+  if (dem->energy)
+    PetscCall(PgDemBookBetween_Private(dem)); /* imposes the plates, too */
+  else
+    PetscCall(PgDemImposePlates_Private(dem));
   PetscCall(HalfKick(dem, 0.5 * dt));
+  if (dem->energy) PetscCall(PgDemBookWork_Private(dem, 0.5 * dt, PETSC_FALSE));
   PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
   PetscCall(PgParticlesGetArray(dem->particles, PG_POSITION, (PetscReal **)&x));
   PetscCall(PgParticlesGetArray(dem->particles, PG_ROTATION, (PetscReal **)&q));
@@ -43,6 +47,7 @@ PetscErrorCode PgDemKickDrift(PgDem dem, PetscReal dt)
   PetscCall(PgParticlesGetArray(dem->particles, PG_ANGULAR_VELOCITY, &w));
   for (PetscInt i = 0; i < 2 * owned; i++) x[i] += dt * v[i];
   for (PetscInt i = 0; i < owned; i++) q[i] += dt * w[i];
+  PgDemMoveWalls_Private(dem, dt);
   dem->pairs_computed = PETSC_FALSE;
   PetscCall(PetscLogFlops(6.0 * owned));
   PetscFunctionReturn(0);
@@ -53,5 +58,6 @@ PetscErrorCode PgDemKick(PgDem dem, PetscReal dt)
   PetscFunctionBeginUser;
   PetscCall(PgDemImposePlates_Private(dem));
   PetscCall(HalfKick(dem, 0.5 * dt));
+  if (dem->energy) PetscCall(PgDemNoteKinetic_Private(dem));
   PetscFunctionReturn(0);
 }

@@ -102,6 +102,14 @@ PetscErrorCode PgNeighborsGetRevision(PgNeighbors neighbors, PetscInt *revision)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgNeighborsGetSkin(PgNeighbors neighbors, PetscReal *skin)
+{
+  PetscFunctionBeginUser;
+  PetscCheck(neighbors->builds, PETSC_COMM_SELF, PETSC_ERR_ORDER, "the lists were never built: they have no skin yet");
+  *skin = neighbors->skin;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgNeighborsGetContacts(PgNeighbors neighbors, PgContactList *list)
 {
   PetscFunctionBeginUser;

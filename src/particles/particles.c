@@ -201,6 +201,16 @@ PetscErrorCode PgParticlesForceMigration(PgParticles particles, PetscInt shift)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgParticlesForgetPartition(PgParticles particles)
+{
+  PetscFunctionBeginUser;
+  particles->grid.width = -1;
+  particles->shift      = 0;
+  particles->recut      = PETSC_TRUE;
+  particles->unsorted   = PETSC_MAX_INT - 1;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgParticlesDistribute(PgParticles particles, PetscReal width)
 {
   PgSortEntry *entry;
