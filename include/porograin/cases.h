@@ -13,11 +13,13 @@ typedef struct {
   PgPore      pore;          /* NULL in a dry run */
   PetscReal   solid_density; /* rho_s [kg/m3] */
   PetscReal   gravity[2];    /* [m/s2] */
+  PetscBool   restart;       /* ids, plates and boundary kinds are needed; the fields will come from a checkpoint */
 
   /* filled in by the case */
   PetscReal end_time;   /* [s] */
   PetscReal height;     /* between plates at the start [m]: displacement/height is the nominal strain */
   PetscInt  load_plate; /* whose load and displacement the history shows, -1: none */
+  PetscInt  load_wall;  /* the same of a wall: force along its normal, way into the discs; -1: none */
 } PgCaseSetup;
 
 typedef struct {

@@ -1,4 +1,4 @@
-/* io: result files. One HDF5 file that walks the field registry, an XDMF index beside it for ParaView,
+/* io: result files and checkpoints. One HDF5 file that walks the field registry, an XDMF index beside it for ParaView,
    and a CSV file with the history. Does not know which fields exist. */
 #pragma once
 
@@ -15,6 +15,20 @@ typedef struct {
    git revision, PETSc version, ranks, date, command line, all options. Collective. */
 PETSC_EXTERN PetscErrorCode PgOutputCreate(PgParticles particles, const char file[], PetscInt columns,
                                            const PgColumn column[], PgOutput *output);
+/* Goes on with the result file of an interrupted run from a state when it had so many rows and snapshots: what came
+   later is cut off, in all three files, and a change that was interrupted is undone first. FILE that is not there is
+   created; one of another run (see PgOutputGetRun()) or with other columns is refused; one that holds less than asked
+   for is told about and taken as it is. `from` is for /provenance. Collective. */
+PETSC_EXTERN PetscErrorCode PgOutputContinue(PgParticles particles, const char file[], PetscInt columns,
+                                             const PgColumn column[], const char run[], PetscInt rows,
+                                             PetscInt snapshots, const char from[], PgOutput *output);
+/* Name of the run that made the file, different for every run that was not a restart. */
+#define PG_RUN_NAME 20
+PETSC_EXTERN PetscErrorCode PgOutputGetRun(PgOutput output, char run[PG_RUN_NAME]);
+/* Undoes an interrupted change of a result file, so that it can be read. Collective. */
+PETSC_EXTERN PetscErrorCode PgResultRecover(MPI_Comm comm, const char file[], PetscBool *undone);
+/* The same for the file of option -recover, when it is given. Collective. */
+PETSC_EXTERN PetscErrorCode PgResultRecoverFromOptions(MPI_Comm comm, PetscBool *asked);
 /* Adds /snapshots/NNNNNN with attribute time and every field flagged PG_FIELD_OUTPUT, in the order of
    permanent ids, plus `extra` fields already in that order (see PgParticlesGetIdRange()); rewrites the
    XDMF index. The file is complete and closed on return. Collective. */
@@ -30,6 +44,9 @@ PETSC_EXTERN PetscErrorCode PgOutputSnapshot(PgOutput output, PetscReal time, Pe
    snapshot and at the end). Collective. */
 PETSC_EXTERN PetscErrorCode PgOutputHistory(PgOutput output, const PetscReal row[]);
 PETSC_EXTERN PetscErrorCode PgOutputGetSnapshotCount(PgOutput output, PetscInt *count);
+PETSC_EXTERN PetscErrorCode PgOutputGetRowCount(PgOutput output, PetscInt *count);
+/* Writes rows that wait to the file. Collective. */
+PETSC_EXTERN PetscErrorCode PgOutputFlush(PgOutput output);
 /* Marks used and unused options in /provenance and writes what is still buffered. Collective. */
 PETSC_EXTERN PetscErrorCode PgOutputFinish(PgOutput output);
 PETSC_EXTERN PetscErrorCode PgOutputDestroy(PgOutput *output);
@@ -40,3 +57,71 @@ PETSC_EXTERN PetscErrorCode PgResultRead(MPI_Comm comm, const char file[], const
                                          PetscInt *columns, PetscReal **value);
 PETSC_EXTERN PetscErrorCode PgResultReadAttribute(MPI_Comm comm, const char file[], const char object[],
                                                   const char name[], PetscReal *value);
+
+/* ---- checkpoints: all that a run needs to go on as if it had never stopped ---- */
+
+/* Refuses a place where no checkpoint can be written, or where something else is. Collective. */
+PETSC_EXTERN PetscErrorCode PgCheckpointCheckPlace(MPI_Comm comm, const char file[]);
+/* Writes the state and all fields and variable-length data flagged PG_FIELD_RESTART; the former FILE becomes
+   FILE.1. FILE is replaced only by one that is complete, sealed with a checksum, and on the disk. Collective. */
+PETSC_EXTERN PetscErrorCode PgCheckpointWrite(PgParticles particles, PgState state, const char file[]);
+/* Seals a file made by hand, so that it is read: for tests, and for programs that write checkpoints. For one rank. */
+PETSC_EXTERN PetscErrorCode PgCheckpointSeal(const char file[]);
+
+typedef struct PgCheckpoint_s *PgCheckpoint;
+/* Chooses a checkpoint and opens it: FILE, or FILE.1 when that is missing or damaged; of a directory or a pattern
+   with * ? [] the one that was sealed last. What has no valid seal is never opened as an HDF5 file. Collective. */
+PETSC_EXTERN PetscErrorCode PgCheckpointOpen(MPI_Comm comm, const char where[], PgCheckpoint *checkpoint);
+PETSC_EXTERN PetscErrorCode PgCheckpointGetFile(PgCheckpoint checkpoint, const char **file);
+/* Restores every item, or refuses: missing, of another type or size, not finite, or not MATCHing. Collective. */
+PETSC_EXTERN PetscErrorCode PgCheckpointReadState(PgCheckpoint checkpoint, PgState state);
+/* Restores the owned values of all fields and variable-length data flagged PG_FIELD_RESTART, whatever the
+   distribution; the discs (their number and ids) are there already. Collective. */
+PETSC_EXTERN PetscErrorCode PgCheckpointReadFields(PgCheckpoint checkpoint, PgParticles particles);
+/* Reports what was wrong with the file, if anything. Collective. */
+PETSC_EXTERN PetscErrorCode PgCheckpointClose(PgCheckpoint *checkpoint);
+
+/* ---- packings: discs from and to CSV and HDF5 files; formats and limits are in docs/packings.md ---- */
+
+/* The discs with ids [start, start + count) of `global`, the range of this rank as PgParticlesGetIdRange() has it. */
+typedef struct {
+  PetscInt   global, start, count;
+  PetscReal *position, *velocity; /* (2) [m], (2) [m/s] */
+  PetscReal *radius;              /* [m] */
+  PetscBool  has_velocity;        /* the file gave it; zero otherwise */
+  PetscBool  periodic;            /* x is periodic in [low, high) */
+  PetscReal  low, high;           /* [m] */
+} PgPacking;
+
+/* Reads FILE, CSV or HDF5 by its content. `group` (may be empty) is the group of an HDF5 file that holds position and
+   radius; default the root, or the last snapshot of a result file. Refuses, naming file, line or dataset, and
+   reason, whatever is not a packing; memory is asked for when all values have been read and checked. Collective. */
+PETSC_EXTERN PetscErrorCode PgPackingRead(MPI_Comm comm, const char file[], const char group[], PgPacking *packing);
+/* Allocates the range of this rank, all zero. Collective. */
+PETSC_EXTERN PetscErrorCode PgPackingCreate(MPI_Comm comm, PetscInt global, PgPacking *packing);
+PETSC_EXTERN PetscErrorCode PgPackingFromParticles(PgParticles particles, PgPacking *packing); /* collective */
+PETSC_EXTERN PetscErrorCode PgPackingDestroy(PgPacking *packing);
+/* Refuses a name that ends in neither .csv nor .h5, and a place that cannot be written. Collective. */
+PETSC_EXTERN PetscErrorCode PgPackingCheckPlace(MPI_Comm comm, const char file[]);
+/* Writes all discs by id with digits that read back exactly; FILE is replaced only by a complete file. Collective. */
+PETSC_EXTERN PetscErrorCode PgPackingWrite(MPI_Comm comm, const char file[], const PgPacking *packing);
+/* Reads -packing_export FILE: checks the place, and writes the discs there unless particles is NULL. Collective. */
+PETSC_EXTERN PetscErrorCode PgPackingExport(MPI_Comm comm, PgParticles particles);
+
+/* The reader of CSV text: memory in, discs out, no files, nothing allocated. */
+enum { PG_PACKING_X, PG_PACKING_Y, PG_PACKING_R, PG_PACKING_VX, PG_PACKING_VY, PG_PACKING_VALUES };
+enum { PG_PACKING_LINE = 4096 }; /* longest line in bytes */
+typedef struct {
+  PetscInt64 line;                    /* lines met so far */
+  PetscInt64 discs, declared;         /* met so far; said by a note, -1: nothing said */
+  int        columns;                 /* of the table; 0: not known yet */
+  int        role[PG_PACKING_VALUES]; /* of each column */
+  PetscBool  periodic;
+  PetscReal  low, high;
+  char       reason[320]; /* why the text was refused; empty: so far so good */
+} PgPackingCsv;
+PETSC_EXTERN void PgPackingCsvStart(PgPackingCsv *csv);
+/* Takes lines from `text` until `room` discs of PG_PACKING_VALUES values are found or no complete line is left, and
+   returns how many bytes it took. `last`: nothing comes after this text. After a refusal it takes nothing. */
+PETSC_EXTERN size_t PgPackingCsvParse(PgPackingCsv *csv, const char text[], size_t size, PetscBool last, PetscInt room,
+                                      PetscReal disc[], PetscInt *discs);

@@ -10,14 +10,18 @@ typedef struct PgSimulation_s *PgSimulation;
 /* Collective, all of them. */
 PETSC_EXTERN PetscErrorCode PgSimulationCreate(MPI_Comm comm, PgSimulation *simulation);
 /* Reads -case, -fluid, -dt, -dt_safety, -fluid_every, -end_time, -gravity, -solid_density, -output*,
-   -history_every, -progress_every, -guard_every and, through the rooms, everything else. */
+   -history_every, -progress_every, -guard_every, -checkpoint, -checkpoint_every, -restart, -wall_time and, through the rooms, everything else. */
 PETSC_EXTERN PetscErrorCode PgSimulationSetFromOptions(PgSimulation simulation);
 /* Makes the discs, lists and first geometry, chooses or checks the time step, sets up the solver, refuses
    unknown options, and only then opens the output. */
 PETSC_EXTERN PetscErrorCode PgSimulationSetUp(PgSimulation simulation);
 PETSC_EXTERN PetscErrorCode PgSimulationView(PgSimulation simulation, PetscViewer viewer);
-/* Steps to the end time with history, snapshots, progress lines and guards. */
+/* Steps to the end time with history, snapshots, progress lines, guards and checkpoints, or until a signal or
+   -wall_time ends it. A failure leaves FILE-postmortem.h5 behind. */
 PETSC_EXTERN PetscErrorCode PgSimulationRun(PgSimulation simulation);
+/* Writes a checkpoint of the present step to -checkpoint FILE, unless there is one already. Partition, lists and
+   preconditioner are made anew, as a run that goes on from the file will do. */
+PETSC_EXTERN PetscErrorCode PgSimulationCheckpoint(PgSimulation simulation);
 /* One fluid step: -fluid_every steps of the discs and one of the water (a dry run: the discs alone). */
 PETSC_EXTERN PetscErrorCode PgSimulationStep(PgSimulation simulation);
 PETSC_EXTERN PetscErrorCode PgSimulationDestroy(PgSimulation *simulation);

@@ -9,10 +9,12 @@ static const char about[] =
 static PetscErrorCode Run(int argc, char *argv[])
 {
   PgSimulation simulation;
-  PetscBool    help;
+  PetscBool    help, recover = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(PgRefuseStrayArguments(argc, argv));
+  PetscCall(PgResultRecoverFromOptions(PETSC_COMM_WORLD, &recover));
+  if (recover) PetscFunctionReturn(0);
   PetscCall(PgSimulationCreate(PETSC_COMM_WORLD, &simulation));
   PetscCall(PgSimulationSetFromOptions(simulation));
   PetscCall(PetscOptionsHasHelp(NULL, &help));

@@ -40,7 +40,7 @@ PetscErrorCode PgOutputCheckName(MPI_Comm comm, const char file[])
 }
 
 /* Opens the file for writing as the real writing will, and leaves no trace; NULL or why not. */
-static const char *WhyNotWritable(const char file[])
+const char *PgWhyNotWritable(const char file[])
 {
   struct stat before;
   const int   there      = stat(file, &before) == 0;
@@ -90,7 +90,7 @@ PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char 
   err = PgFileCheck(comm, PETSC_ERR_USER_INPUT, "directory of the result file", directory,
                     rank ? NULL : WhyNotDirectory(directory));
   for (size_t k = 0; !err && k < PETSC_STATIC_ARRAY_LENGTH(places); k++)
-    err = PgFileCheck(comm, PETSC_ERR_USER_INPUT, "result file", places[k], rank ? NULL : WhyNotWritable(places[k]));
+    err = PgFileCheck(comm, PETSC_ERR_USER_INPUT, "result file", places[k], rank ? NULL : PgWhyNotWritable(places[k]));
   PetscCall(PetscFree(directory));
   PetscFunctionReturn(err);
 }
@@ -107,7 +107,7 @@ static const char *Allocate(int descriptor, off_t size, off_t more)
   return strerror(ftruncate(descriptor, size) ? errno : err);
 }
 
-static const char *WhyNoRoom(const char file[], off_t size, off_t more)
+const char *PgWhyNoRoom(const char file[], off_t size, off_t more)
 {
   const int   descriptor = open(file, O_WRONLY | O_CLOEXEC);
   const char *reason     = NULL;
@@ -125,7 +125,7 @@ static const char *WhyNoRoom(const char file[], off_t size, off_t more)
 }
 
 /* For a new file: an old one of this name stays as it is, but its blocks will be free. */
-static const char *WhyNoRoomForNew(const char file[], off_t bytes)
+const char *PgWhyNoRoomForNew(const char file[], off_t bytes)
 {
   struct stat before;
   const int   there      = stat(file, &before) == 0;
@@ -147,28 +147,44 @@ PetscErrorCode PgOutputCheckRoom(PgOutput output, PetscReal bytes)
 {
   PetscFunctionBeginUser;
   PetscCall(PgFileCheck(output->comm, PETSC_ERR_FILE_WRITE, "cannot write result file", output->file,
-                        output->rank ? NULL : WhyNoRoomForNew(output->file, (off_t)bytes)));
+                        output->rank ? NULL : PgWhyNoRoomForNew(output->file, (off_t)bytes)));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgOutputOpen(PgOutput output, PetscReal more, PgHdf *hdf)
 {
-  char what[96];
+  char        what[96];
+  const char *reason = NULL;
 
   PetscFunctionBeginUser;
   (void)snprintf(what, sizeof what, "cannot write %.3f MiB more into result file", (double)more / 1048576.);
   PetscCall(PgFileCheck(output->comm, PETSC_ERR_FILE_WRITE, what, output->file,
-                        output->rank ? NULL : WhyNoRoom(output->file, output->file_size, (off_t)more)));
+                        output->rank ? NULL : PgWhyNoRoom(output->file, output->file_size, (off_t)more)));
+  if (output->rank == 0) {
+    reason = PgSettle(output);
+    if (!reason)
+      reason = PgJournalBegin(output->file, (int64_t)output->file_size, output->settled, output->settled_count);
+    if (reason && truncate(output->file, output->file_size)) reason = strerror(errno);
+  }
+  PetscCall(
+      PgFileCheck(output->comm, PETSC_ERR_FILE_WRITE, "cannot write the journal of result file", output->file, reason));
   PetscCall(PgHdfOpen(output->comm, output->file, hdf));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgOutputClose(PgOutput output, PgHdf *hdf)
 {
-  struct stat          found;
-  const PetscErrorCode err = PgHdfClose(hdf);
+  PetscErrorCode err    = PgHdfClose(hdf);
+  const char    *reason = NULL;
+  PetscBool      undone;
+  struct stat    found;
 
   PetscFunctionBeginUser;
-  if (output->rank == 0) output->file_size = stat(output->file, &found) ? 0 : found.st_size;
-  PetscFunctionReturn(err);
+  if (output->rank == 0) {
+    reason            = err ? PgJournalUndo(output->file, &undone) : PgJournalEnd(output->file);
+    output->file_size = stat(output->file, &found) ? 0 : found.st_size;
+  }
+  if (err) PetscFunctionReturn(err);
+  PetscCall(PgFileCheck(output->comm, PETSC_ERR_FILE_WRITE, "cannot write out result file", output->file, reason));
+  PetscFunctionReturn(0);
 }

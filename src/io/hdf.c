@@ -46,8 +46,7 @@ hid_t PgHdfWatch(PgHdf *hdf, const char action[], const char object[], hid_t res
   return result;
 }
 
-/* After this call all ranks have failed, with the words of the lowest rank that has, or none. */
-static PetscErrorCode Agree(PgHdf *hdf)
+PetscErrorCode PgHdfAgree(PgHdf *hdf)
 {
   PetscMPIInt rank, size, mine, first, code = (PetscMPIInt)hdf->code;
 
@@ -70,6 +69,7 @@ static void Begin(MPI_Comm comm, const char file[], PgHdf *hdf)
   (void)memset(hdf, 0, sizeof *hdf);
   hdf->comm = comm;
   hdf->file = file;
+  hdf->what = "result file";
   hdf->id   = H5I_INVALID_HID;
   hdf->code = PETSC_ERR_FILE_OPEN;
   (void)H5Eget_auto2(H5E_DEFAULT, &hdf->print, &hdf->print_context);
@@ -86,11 +86,11 @@ static PetscErrorCode OpenCollectively(MPI_Comm comm, const char file[], PetscBo
   PgHdfWatch(hdf, "set the MPI-IO access", "", H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL));
   /* After a failure objects may still be open: closing the file closes them too. */
   PgHdfWatch(hdf, "set the closing mode", "", H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   if (!hdf->failed) {
     hdf->id = create ? H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, access) : H5Fopen(file, H5F_ACC_RDWR, access);
     PgHdfWatch(hdf, create ? "create the file" : "open the file", "", hdf->id);
-    PetscCall(Agree(hdf));
+    PetscCall(PgHdfAgree(hdf));
   }
   (void)H5Pclose(access);
   if (!hdf->failed) hdf->code = PETSC_ERR_FILE_WRITE;
@@ -119,7 +119,7 @@ PetscErrorCode PgHdfOpenToRead(MPI_Comm comm, const char file[], PgHdf *hdf)
   Begin(comm, file, hdf);
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) hdf->id = PgHdfWatch(hdf, "open the file", "", H5Fopen(file, H5F_ACC_RDONLY, H5P_DEFAULT));
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   if (!hdf->failed) hdf->code = PETSC_ERR_FILE_READ;
   PetscFunctionReturn(0);
 }
@@ -129,7 +129,7 @@ PetscErrorCode PgHdfFlush(PgHdf *hdf)
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
   PgHdfWatch(hdf, "write out the file", "", H5Fflush(hdf->id, H5F_SCOPE_GLOBAL));
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
@@ -139,9 +139,9 @@ PetscErrorCode PgHdfClose(PgHdf *hdf)
   if (hdf->id >= 0) PgHdfWatch(hdf, "close the file", "", H5Fclose(hdf->id));
   hdf->id = H5I_INVALID_HID;
   (void)H5Eset_auto2(H5E_DEFAULT, hdf->print, hdf->print_context);
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   if (hdf->failed) {
-    PetscCall(PgReport(hdf->comm, "result file '%s': %s", hdf->file, hdf->trouble));
+    PetscCall(PgReport(hdf->comm, "%s '%s': %s", hdf->what, hdf->file, hdf->trouble));
     PetscFunctionReturn(hdf->code);
   }
   PetscFunctionReturn(0);
@@ -155,7 +155,7 @@ PetscErrorCode PgHdfGroup(PgHdf *hdf, const char path[])
   if (hdf->failed) PetscFunctionReturn(0);
   group = PgHdfWatch(hdf, "create group", path, H5Gcreate2(hdf->id, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   if (group >= 0) PgHdfWatch(hdf, "close group", path, H5Gclose(group));
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
@@ -167,7 +167,7 @@ PetscErrorCode PgHdfRemoveIfThere(PgHdf *hdf, const char path[])
   if (hdf->failed) PetscFunctionReturn(0);
   there = PgHdfWatch(hdf, "look for", path, H5Lexists(hdf->id, path, H5P_DEFAULT));
   if (there > 0) PgHdfWatch(hdf, "remove", path, H5Ldelete(hdf->id, path, H5P_DEFAULT));
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
@@ -176,7 +176,7 @@ PetscErrorCode PgHdfMove(PgHdf *hdf, const char from[], const char to[])
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
   PgHdfWatch(hdf, "move a group to", to, H5Lmove(hdf->id, from, hdf->id, to, H5P_DEFAULT, H5P_DEFAULT));
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
@@ -197,7 +197,7 @@ static PetscErrorCode WriteAttribute(PgHdf *hdf, const char object[], const char
     PgHdfWatch(hdf, "close attribute", path, H5Aclose(attribute));
   }
   if (space >= 0) (void)H5Sclose(space);
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
@@ -256,7 +256,7 @@ PetscErrorCode PgHdfDataset(PgHdf *hdf, const char path[], hid_t type, int rank,
   if (dataset >= 0) PgHdfWatch(hdf, "close dataset", path, H5Dclose(dataset));
   if (space >= 0) (void)H5Sclose(space);
   if (create >= 0) (void)H5Pclose(create);
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   PetscCall(PgHdfText(hdf, path, "unit", unit));
   PetscCall(PgHdfText(hdf, path, "description", description));
   PetscFunctionReturn(0);
@@ -296,7 +296,7 @@ PetscErrorCode PgHdfWriteRows(PgHdf *hdf, const char path[], hid_t type, PetscIn
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
   dataset = OpenRows(hdf, path, rows, &rank, size);
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   if (!hdf->failed) {
     static const char unused = 0;
 
@@ -323,6 +323,6 @@ PetscErrorCode PgHdfWriteRows(PgHdf *hdf, const char path[], hid_t type, PetscIn
     if (file_space >= 0) (void)H5Sclose(file_space);
   }
   if (dataset >= 0) PgHdfWatch(hdf, "close dataset", path, H5Dclose(dataset));
-  PetscCall(Agree(hdf));
+  PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }

@@ -20,7 +20,7 @@ PetscErrorCode PgHistoryCreate(PgOutput output, PetscInt columns, const PgColumn
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DatasetPath(PgOutput output, PetscInt c, char path[], size_t size)
+PetscErrorCode PgHistoryPath(PgOutput output, PetscInt c, char path[], size_t size)
 {
   const int length = snprintf(path, size, "/history/%s", output->column[c].name);
 
@@ -37,7 +37,7 @@ PetscErrorCode PgHistoryCreateDatasets(PgOutput output, PgHdf *hdf)
   PetscFunctionBeginUser;
   PetscCall(PgHdfGroup(hdf, "/history"));
   for (PetscInt c = 0; c < output->columns; c++) {
-    PetscCall(DatasetPath(output, c, path, sizeof path));
+    PetscCall(PgHistoryPath(output, c, path, sizeof path));
     PetscCall(
         PgHdfDataset(hdf, path, PG_HDF_REAL, 1, &none, chunk, output->column[c].unit, output->column[c].description));
   }
@@ -61,7 +61,7 @@ PetscErrorCode PgHistoryAppend(PgOutput output, PgHdf *hdf)
   if (!output->waiting) PetscFunctionReturn(0);
   for (PetscInt c = 0; c < output->columns; c++) {
     const PetscReal *data = output->rank == 0 ? output->row + c * PG_HISTORY_WAITING : NULL;
-    PetscCall(DatasetPath(output, c, path, sizeof path));
+    PetscCall(PgHistoryPath(output, c, path, sizeof path));
     PetscCall(PgHdfWriteRows(hdf, path, PG_HDF_REAL, rows, output->written, count, data));
   }
   PetscFunctionReturn(0);
@@ -71,6 +71,33 @@ void PgHistoryAppendDone(PgOutput output)
 {
   output->written += output->waiting;
   output->waiting = 0;
+}
+
+PetscErrorCode PgHistoryHeaderText(PgOutput output, PgText *line)
+{
+  PetscFunctionBeginUser;
+  line->used = 0;
+  for (PetscInt c = 0; c < output->columns; c++) {
+    PetscCall(PgTextAppend(line, c ? "," : ""));
+    PetscCall(PgTextAppend(line, output->column[c].name));
+    PetscCall(PgTextAppend(line, " ["));
+    PetscCall(PgTextAppend(line, output->column[c].unit));
+    PetscCall(PgTextAppend(line, "]"));
+  }
+  PetscCall(PgTextAppend(line, "\n"));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgHistoryRowText(PgOutput output, PetscInt rows, PetscInt r, const PetscReal value[], PgText *line)
+{
+  PetscFunctionBeginUser;
+  line->used = 0;
+  for (PetscInt c = 0; c < output->columns; c++) {
+    if (c) PetscCall(PgTextAppend(line, ","));
+    PetscCall(PgTextReal(line, value[c * rows + r]));
+  }
+  PetscCall(PgTextAppend(line, "\n"));
+  PetscFunctionReturn(0);
 }
 
 /* Rank 0: writes one line and hands it to the system; NULL or why not. */
@@ -98,14 +125,7 @@ PetscErrorCode PgHistoryOpenCsv(PgOutput output)
   if (output->rank == 0) {
     output->csv_stream = fopen(output->csv, "w");
     if (!output->csv_stream) reason = strerror(errno);
-    for (PetscInt c = 0; c < output->columns; c++) {
-      PetscCall(PgTextAppend(&output->line, c ? "," : ""));
-      PetscCall(PgTextAppend(&output->line, output->column[c].name));
-      PetscCall(PgTextAppend(&output->line, " ["));
-      PetscCall(PgTextAppend(&output->line, output->column[c].unit));
-      PetscCall(PgTextAppend(&output->line, "]"));
-    }
-    PetscCall(PgTextAppend(&output->line, "\n"));
+    PetscCall(PgHistoryHeaderText(output, &output->line));
   }
   PetscCall(PgFileCheck(output->comm, PETSC_ERR_FILE_OPEN, "cannot open history file", output->csv, reason));
   PetscCall(WriteCsv(output, &output->line));
@@ -123,26 +143,35 @@ PetscErrorCode PgHistoryCloseCsv(PgOutput output)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgOutputFlush(PgOutput output)
+{
+  PgHdf hdf;
+
+  PetscFunctionBeginUser;
+  if (!output->waiting) PetscFunctionReturn(0);
+  PetscCall(PgOutputOpen(output, PgHistoryBytes(output), &hdf));
+  PetscCall(PgHistoryAppend(output, &hdf));
+  PetscCall(PgHdfFlush(&hdf));
+  PetscCall(PgOutputClose(output, &hdf));
+  PgHistoryAppendDone(output);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgOutputGetRowCount(PgOutput output, PetscInt *count)
+{
+  PetscFunctionBeginUser;
+  *count = output->written + output->waiting;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgOutputHistory(PgOutput output, const PetscReal row[])
 {
   PetscFunctionBeginUser;
   PetscCheck(!output->finished, output->comm, PETSC_ERR_ORDER, "the output is finished");
-  if (output->waiting == PG_HISTORY_WAITING) {
-    PgHdf hdf;
-    PetscCall(PgOutputOpen(output, PgHistoryBytes(output), &hdf));
-    PetscCall(PgHistoryAppend(output, &hdf));
-    PetscCall(PgHdfFlush(&hdf));
-    PetscCall(PgOutputClose(output, &hdf));
-    PgHistoryAppendDone(output);
-  }
+  if (output->waiting == PG_HISTORY_WAITING) PetscCall(PgOutputFlush(output));
   if (output->rank == 0) {
-    output->line.used = 0;
-    for (PetscInt c = 0; c < output->columns; c++) {
-      output->row[c * PG_HISTORY_WAITING + output->waiting] = row[c];
-      if (c) PetscCall(PgTextAppend(&output->line, ","));
-      PetscCall(PgTextReal(&output->line, row[c]));
-    }
-    PetscCall(PgTextAppend(&output->line, "\n"));
+    for (PetscInt c = 0; c < output->columns; c++) output->row[c * PG_HISTORY_WAITING + output->waiting] = row[c];
+    PetscCall(PgHistoryRowText(output, PG_HISTORY_WAITING, output->waiting, output->row, &output->line));
   }
   output->waiting++;
   PetscCall(WriteCsv(output, &output->line));

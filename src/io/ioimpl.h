@@ -33,6 +33,7 @@
 typedef struct {
   MPI_Comm       comm;
   const char    *file;
+  const char    *what; /* kind of file, for messages */
   hid_t          id;
   PetscBool      failed;
   PetscErrorCode code;          /* what the failure is returned as */
@@ -53,7 +54,9 @@ PETSC_INTERN PetscErrorCode PgHdfFlush(PgHdf *hdf);
 /* Passes on `result` of an HDF5 call and remembers the failure if it is negative. Not collective. */
 PETSC_INTERN hid_t PgHdfWatch(PgHdf *hdf, const char action[], const char object[], hid_t result);
 /* Remembers a failure that HDF5 does not know of. Not collective. */
-PETSC_INTERN void           PgHdfFail(PgHdf *hdf, const char action[], const char object[], const char reason[]);
+PETSC_INTERN void PgHdfFail(PgHdf *hdf, const char action[], const char object[], const char reason[]);
+/* After this call all ranks have failed, with the words of the lowest rank that has, or none. */
+PETSC_INTERN PetscErrorCode PgHdfAgree(PgHdf *hdf);
 PETSC_INTERN PetscErrorCode PgHdfGroup(PgHdf *hdf, const char path[]);
 PETSC_INTERN PetscErrorCode PgHdfRemoveIfThere(PgHdf *hdf, const char path[]);
 PETSC_INTERN PetscErrorCode PgHdfMove(PgHdf *hdf, const char from[], const char to[]);
@@ -89,6 +92,21 @@ PETSC_INTERN const char *PgSyncDirectory(const char file[]);
 PETSC_INTERN const char *PgReadAll(int descriptor, void *buffer, size_t size, off_t offset);
 PETSC_INTERN const char *PgWriteAll(int descriptor, const void *buffer, size_t size, off_t offset);
 
+/* ---- journal.c: undoing an interrupted change of the result file; all calls are for rank 0 ---- */
+typedef struct {
+  int64_t offset, length; /* [bytes] */
+} PgRange;
+
+/* Before a change: saves all of the file, which has `size` bytes, but the settled ranges (they are sorted here). */
+PETSC_INTERN const char *PgJournalBegin(const char file[], int64_t size, PgRange settled[], size_t count);
+/* The change is complete: waits until the file is on the disk. */
+PETSC_INTERN const char *PgJournalEnd(const char file[]);
+/* Undoes a change that was not completed, if there is one. */
+PETSC_INTERN const char *PgJournalUndo(const char file[], PetscBool *undone);
+PETSC_INTERN PetscBool   PgJournalIsThere(const char file[]);
+/* For a new file: what is left of an old one must not undo it. */
+PETSC_INTERN void PgJournalForget(const char file[]);
+
 /* ---- text.c: a growing string ---- */
 typedef struct {
   char  *string;
@@ -118,9 +136,10 @@ struct PgOutput_s {
   MPI_Comm    comm;
   PetscMPIInt rank;
   char       *file, *xmf, *csv;
-  const char *base;      /* file without its directory, for the XDMF index beside it */
-  off_t       file_size; /* rank 0: when it was closed */
-  PetscInt    snapshots; /* complete ones in the file */
+  const char *base;             /* file without its directory, for the XDMF index beside it */
+  off_t       file_size;        /* rank 0: when it was closed */
+  char        run[PG_RUN_NAME]; /* the run that the file belongs to */
+  PetscInt    snapshots;        /* complete ones in the file */
   PetscBool   finished;
   PetscReal  *byid; /* work space: one field, rows of this rank in the order of files */
   PetscInt    byid_size;
@@ -134,6 +153,10 @@ struct PgOutput_s {
   PgText     line;       /* rank 0: the row as text */
   /* rank 0: what FILE.xmf says about the snapshots */
   PgText grids;
+  /* rank 0: what the journal need not save, because nothing will ever change it */
+  PgRange *settled;
+  size_t   settled_count, settled_room;
+  PetscInt settled_snapshots, settled_rows;
 };
 
 /* A failure of rank 0 (reason != NULL there), for all ranks: prints "what 'file': reason" and returns
@@ -146,18 +169,40 @@ PETSC_INTERN PetscErrorCode PgOutputCheckName(MPI_Comm comm, const char file[]);
 PETSC_INTERN PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char xmf[], const char csv[]);
 /* Makes sure that a new result file of this size will fit on the device. Collective. */
 PETSC_INTERN PetscErrorCode PgOutputCheckRoom(PgOutput output, PetscReal bytes);
-/* Opens the result file when it is sure that so many bytes more will fit into it. Collective. */
+/* Opens the result file when it is sure that so many bytes more will fit into it, with a journal. Collective. */
 PETSC_INTERN PetscErrorCode PgOutputOpen(PgOutput output, PetscReal more, PgHdf *hdf);
+/* Closes it; after a failure the file is as it was before it was opened. Collective. */
 PETSC_INTERN PetscErrorCode PgOutputClose(PgOutput output, PgHdf *hdf);
+/* For rank 0, all three: NULL or why not. */
+PETSC_INTERN const char *PgWhyNotWritable(const char file[]);
+PETSC_INTERN const char *PgWhyNoRoom(const char file[], off_t size, off_t more);
+PETSC_INTERN const char *PgWhyNoRoomForNew(const char file[], off_t bytes);
+
+/* output.c: the parts of an output before anything is written */
+PETSC_INTERN PetscErrorCode PgOutputCreateAs(PgParticles particles, const char file[], PetscInt columns,
+                                             const PgColumn column[], const char run[], PgOutput *output);
+PETSC_INTERN PetscErrorCode PgOutputPrepare(PgParticles particles, const char file[], PetscInt columns,
+                                            const PgColumn column[], PgOutput *output);
+
+/* settled.c: for rank 0, looks for what has become settled in the closed file; NULL or why not */
+PETSC_INTERN const char *PgSettle(PgOutput output);
 
 /* provenance.c */
 PETSC_INTERN PetscErrorCode PgProvenanceStart(PgHdf *hdf);
 PETSC_INTERN PetscErrorCode PgProvenanceFinish(PgHdf *hdf);
+PETSC_INTERN PetscErrorCode PgProvenanceRestart(PgHdf *hdf, const char from[], PetscInt rows, PetscInt snapshots);
+PETSC_INTERN PetscErrorCode PgRunName(MPI_Comm comm, char name[PG_RUN_NAME]);
 
 /* history.c */
 PETSC_INTERN PetscErrorCode PgHistoryCreate(PgOutput output, PetscInt columns, const PgColumn column[]);
 PETSC_INTERN PetscErrorCode PgHistoryCreateDatasets(PgOutput output, PgHdf *hdf);
 PETSC_INTERN PetscErrorCode PgHistoryOpenCsv(PgOutput output);
+/* The name of a column in the file. */
+PETSC_INTERN PetscErrorCode PgHistoryPath(PgOutput output, PetscInt c, char path[], size_t size);
+/* Rank 0: the header line, or row `r` of columns that hold `rows` each, as text. */
+PETSC_INTERN PetscErrorCode PgHistoryHeaderText(PgOutput output, PgText *line);
+PETSC_INTERN PetscErrorCode PgHistoryRowText(PgOutput output, PetscInt rows, PetscInt r, const PetscReal value[],
+                                             PgText *line);
 PETSC_INTERN PetscErrorCode PgHistoryCloseCsv(PgOutput output);
 /* Upper bound of what appending the waiting rows adds to the file. */
 PETSC_INTERN PetscReal PgHistoryBytes(PgOutput output);

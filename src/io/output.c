@@ -25,8 +25,10 @@ static PetscErrorCode WriteFirst(PgOutput output)
   PgHdf hdf;
 
   PetscFunctionBeginUser;
+  if (output->rank == 0) PgJournalForget(output->file);
   PetscCall(PgHdfCreate(output->comm, output->file, &hdf));
   PetscCall(PgProvenanceStart(&hdf));
+  PetscCall(PgHdfText(&hdf, "/provenance", "run", output->run));
   PetscCall(PgHdfGroup(&hdf, "/snapshots"));
   PetscCall(PgHdfInt(&hdf, "/snapshots", "count", 0));
   PetscCall(PgHistoryCreateDatasets(output, &hdf));
@@ -37,8 +39,8 @@ static PetscErrorCode WriteFirst(PgOutput output)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgOutputCreate(PgParticles particles, const char file[], PetscInt columns, const PgColumn column[],
-                              PgOutput *output)
+PetscErrorCode PgOutputPrepare(PgParticles particles, const char file[], PetscInt columns, const PgColumn column[],
+                               PgOutput *output)
 {
   const MPI_Comm comm = PgParticlesComm(particles);
   PetscErrorCode err;
@@ -54,13 +56,36 @@ PetscErrorCode PgOutputCreate(PgParticles particles, const char file[], PetscInt
   err = AllocateNames(out, file);
   if (!err) err = PgOutputCheckPlaces(comm, out->file, out->xmf, out->csv);
   if (!err) err = PgHistoryCreate(out, columns, column);
-  if (!err) err = PgOutputCheckRoom(out, PgHistoryBytes(out) + PG_PROVENANCE_BYTES);
-  if (!err) err = WriteFirst(out);
   if (err) {
     PetscCall(PgOutputDestroy(&out));
     PetscFunctionReturn(err);
   }
   *output = out;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgOutputCreateAs(PgParticles particles, const char file[], PetscInt columns, const PgColumn column[],
+                                const char run[], PgOutput *output)
+{
+  PetscErrorCode err;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgOutputPrepare(particles, file, columns, column, output));
+  PetscCall(PetscStrncpy((*output)->run, run, sizeof(*output)->run));
+  err = PgOutputCheckRoom(*output, PgHistoryBytes(*output) + PG_PROVENANCE_BYTES);
+  if (!err) err = WriteFirst(*output);
+  if (err) PetscCall(PgOutputDestroy(output));
+  PetscFunctionReturn(err);
+}
+
+PetscErrorCode PgOutputCreate(PgParticles particles, const char file[], PetscInt columns, const PgColumn column[],
+                              PgOutput *output)
+{
+  char run[PG_RUN_NAME];
+
+  PetscFunctionBeginUser;
+  PetscCall(PgRunName(PgParticlesComm(particles), run));
+  PetscCall(PgOutputCreateAs(particles, file, columns, column, run, output));
   PetscFunctionReturn(0);
 }
 
@@ -235,6 +260,7 @@ PetscErrorCode PgOutputDestroy(PgOutput *output)
   PetscCall(PgHistoryDestroy(*output));
   PetscCall(PgTextDestroy(&(*output)->grids));
   PetscCall(PetscFree((*output)->byid));
+  PetscCall(PetscFree((*output)->settled));
   PetscCall(PetscFree((*output)->file));
   PetscCall(PetscFree((*output)->xmf));
   PetscCall(PetscFree((*output)->csv));

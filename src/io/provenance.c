@@ -1,6 +1,8 @@
 /* /provenance: what made the file. Texts come from rank 0, since HDF5 wants the same on every rank. */
 #include "ioimpl.h"
 #include <time.h>
+#include <unistd.h>
+#include <xxhash.h>
 
 /* The build may define the commit it was made from. */
 #if !defined(PG_GIT_REVISION)
@@ -179,5 +181,41 @@ PetscErrorCode PgProvenanceFinish(PgHdf *hdf)
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &name, &value));
   PetscCall(WriteDate(hdf, "date_finished", &text));
   PetscCall(PgTextDestroy(&text));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgProvenanceRestart(PgHdf *hdf, const char from[], PetscInt rows, PetscInt snapshots)
+{
+  PgText text = {NULL, 0, 0};
+
+  PetscFunctionBeginUser;
+  PetscCall(PgTextPrint(&text, "%s, with %lld rows and %lld snapshots", from, (long long)rows, (long long)snapshots));
+  PetscCall(WriteFromRankZero(hdf, "restarted_from", &text));
+  PetscCall(WriteDate(hdf, "date_restarted", &text));
+  PetscCall(WriteCommandLine(hdf, &text));
+  PetscCall(PgTextDestroy(&text));
+  PetscFunctionReturn(0);
+}
+
+/* A name for a run that no other run has: when, where and by which process it was started. */
+PetscErrorCode PgRunName(MPI_Comm comm, char name[PG_RUN_NAME])
+{
+  struct {
+    struct timespec now;
+    pid_t           process;
+    char            host[256];
+  } seed;
+  PetscMPIInt rank;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(PetscMemzero(&seed, sizeof seed));
+  if (rank == 0) {
+    (void)clock_gettime(CLOCK_REALTIME, &seed.now);
+    seed.process = getpid();
+    PetscCall(PetscGetHostName(seed.host, sizeof seed.host));
+  }
+  (void)snprintf(name, PG_RUN_NAME, "%016llx", (unsigned long long)XXH64(&seed, sizeof seed, 0));
+  PetscCallMPI(MPI_Bcast(name, PG_RUN_NAME, MPI_CHAR, 0, comm));
   PetscFunctionReturn(0);
 }

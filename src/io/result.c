@@ -1,6 +1,13 @@
 /* Reading results back: rank 0 reads, all ranks get it. Files are checked before memory is asked for. */
 #include "ioimpl.h"
 
+/* Rank 0: a file in the middle of a change may be in any state. */
+static const char *WhyNotReadable(const char file[])
+{
+  return PgJournalIsThere(file) ? "it is being written, or was when its run was killed: run porograin -recover FILE"
+                                : NULL;
+}
+
 /* Class and shape of the dataset as rows and columns; a failure is remembered in hdf. */
 static void GetShape(PgHdf *hdf, const char path[], hid_t dataset, PetscInt64 shape[2])
 {
@@ -66,6 +73,7 @@ PetscErrorCode PgResultRead(MPI_Comm comm, const char file[], const char dataset
   PetscFunctionBeginUser;
   *value = NULL;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_READ, "result file", file, rank ? NULL : WhyNotReadable(file)));
   PetscCall(PgHdfOpenToRead(comm, file, &hdf));
   if (rank == 0 && !hdf.failed) PetscCall(ReadDataset(&hdf, dataset, shape, value));
   err = PgHdfClose(&hdf);
@@ -109,6 +117,7 @@ PetscErrorCode PgResultReadAttribute(MPI_Comm comm, const char file[], const cha
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_READ, "result file", file, rank ? NULL : WhyNotReadable(file)));
   PetscCall(PgHdfOpenToRead(comm, file, &hdf));
   if (rank == 0 && !hdf.failed) ReadAttribute(&hdf, object, name, value);
   PetscCall(PgHdfClose(&hdf));

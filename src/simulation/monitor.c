@@ -2,10 +2,13 @@
 #include "simulationimpl.h"
 
 const PgColumn PgHistoryColumns[COLUMN_COUNT] = {
-    [COLUMN_TIME]         = {"time", "s", "simulated time"},
-    [COLUMN_DISPLACEMENT] = {"displacement", "m", "displacement of the loading plate against its side"},
-    [COLUMN_LOAD]         = {"load", "N/m", "reaction of the loading plate to contact forces, positive in compression"},
-    [COLUMN_LOAD_TOTAL]   = {"load_total", "N/m", "reaction of the loading plate to all forces on its discs"},
+    [COLUMN_TIME] = {"time", "s", "simulated time"},
+    [COLUMN_DISPLACEMENT] =
+        {"displacement", "m",
+         "displacement of the loading plate against its side, or of the loading wall into the discs"},
+    [COLUMN_LOAD] = {"load", "N/m", "reaction of the loading plate or wall to contact forces, positive in compression"},
+    [COLUMN_LOAD_TOTAL]     = {"load_total", "N/m",
+                               "reaction of the loading plate to all forces on its discs; of a wall: load"},
     [COLUMN_KINETIC_ENERGY] = {"kinetic_energy", "J/m", "translational and rotational kinetic energy of the discs"},
     [COLUMN_PRESSURE_MIN]   = {"pressure_min", "Pa", "smallest pore pressure"},
     [COLUMN_PRESSURE_MEAN]  = {"pressure_mean", "Pa", "mean pore pressure over the discs"},
@@ -31,13 +34,21 @@ PetscBool PgMonitorDue(PgSimulation sim, PetscInt every)
   return (PetscBool)(sim->step % every == 0 || sim->step == sim->steps);
 }
 
-static PetscErrorCode FillRow(PgSimulation sim)
+PetscErrorCode PgMonitorGetBuilds(PgSimulation sim, PetscInt *builds)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgNeighborsGetRevision(sim->neighbors, builds));
+  *builds += sim->builds_before;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgMonitorFillRow(PgSimulation sim)
 {
   PetscReal *row = sim->row;
   PetscInt   builds;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscArrayzero(row, COLUMN_COUNT));
+  PetscCall(PetscArrayzero(row, sim->columns));
   row[COLUMN_TIME] = sim->time;
   if (sim->setup.load_plate >= 0) {
     PgPlate plate;
@@ -61,8 +72,9 @@ static PetscErrorCode FillRow(PgSimulation sim)
     row[COLUMN_CLIPPED]             = (PetscReal)stats.clipped;
     row[COLUMN_CHARACTERISTIC]      = (PetscReal)stats.characteristic_failures;
   }
-  PetscCall(PgNeighborsGetRevision(sim->neighbors, &builds));
+  PetscCall(PgMonitorGetBuilds(sim, &builds));
   row[COLUMN_LIST_BUILDS] = (PetscReal)builds;
+  PetscCall(PgColumnsFill(sim));
   if (row[COLUMN_LOAD] > sim->peak_load) {
     sim->peak_load         = row[COLUMN_LOAD];
     sim->peak_displacement = row[COLUMN_DISPLACEMENT];
@@ -70,10 +82,10 @@ static PetscErrorCode FillRow(PgSimulation sim)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Snapshot(PgSimulation sim)
+PetscErrorCode PgMonitorSnapshot(PgSimulation sim, PgOutput output)
 {
   PetscFunctionBeginUser;
-  if (!sim->output) PetscFunctionReturn(0);
+  if (!output) PetscFunctionReturn(0);
   PetscCall(PgStagePush(PG_STAGE_OUTPUT));
   PetscCall(PgDemComputeObservables(sim->dem));
   PetscCall(PgStrainCompute(sim->strain, sim->effective, sim->volumetric));
@@ -83,7 +95,7 @@ static PetscErrorCode Snapshot(PgSimulation sim)
          sim->effective},
         {"volumetric_strain", 1, "1", "nominal volumetric strain det F - 1 of the neighbourhood at the start",
          sim->volumetric}};
-    PetscCall(PgOutputSnapshot(sim->output, sim->time, 2, extra));
+    PetscCall(PgOutputSnapshot(output, sim->time, 2, extra));
   }
   PetscCall(PgStagePop());
   PetscFunctionReturn(0);
@@ -119,9 +131,10 @@ PetscErrorCode PgMonitorStart(PgSimulation sim)
   PetscFunctionBeginUser;
   sim->started = sim->last_progress = MPI_Wtime();
   sim->last_progress_step           = sim->step;
-  PetscCall(FillRow(sim));
+  if (sim->restart_file[0]) PetscFunctionReturn(0); /* what belongs to this step was written before */
+  PetscCall(PgMonitorFillRow(sim));
   if (sim->output) PetscCall(PgOutputHistory(sim->output, sim->row));
-  if (sim->output_every) PetscCall(Snapshot(sim));
+  if (sim->output_every) PetscCall(PgMonitorSnapshot(sim, sim->output));
   PetscFunctionReturn(0);
 }
 
@@ -131,11 +144,11 @@ PetscErrorCode PgMonitorStep(PgSimulation sim)
 
   PetscFunctionBeginUser;
   if (history || progress) {
-    PetscCall(FillRow(sim));
+    PetscCall(PgMonitorFillRow(sim));
     if (history && sim->output) PetscCall(PgOutputHistory(sim->output, sim->row));
     if (progress) PetscCall(Progress(sim));
   }
-  if (PgMonitorDue(sim, sim->output_every)) PetscCall(Snapshot(sim));
+  if (PgMonitorDue(sim, sim->output_every)) PetscCall(PgMonitorSnapshot(sim, sim->output));
   PetscFunctionReturn(0);
 }
 
@@ -146,7 +159,7 @@ PetscErrorCode PgMonitorEnd(PgSimulation sim)
 
   PetscFunctionBeginUser;
   PetscCall(PgParticlesGetSizes(sim->particles, NULL, NULL, &global));
-  if (sim->setup.load_plate >= 0)
+  if (sim->setup.load_plate >= 0 || sim->setup.load_wall >= 0)
     PetscCall(PetscPrintf(sim->comm, "peak load %.4e N/m at a displacement of %.4e m, load at the end %.4e N/m\n",
                           (double)sim->peak_load, (double)sim->peak_displacement, (double)sim->row[COLUMN_LOAD]));
   PetscCall(PetscPrintf(sim->comm, "%.2f s for %" PetscInt_FMT " steps of %" PetscInt_FMT " discs, %.3e disc-steps/s\n",

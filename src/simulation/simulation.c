@@ -1,7 +1,7 @@
 /* The object: options, set-up in the one order that refuses everything before anything is written. */
 #include "simulationimpl.h"
 
-static const char *const fluid_words[] = {"none", "darcy", "ns"};
+const char *const PgFluidWords[3] = {"none", "darcy", "ns"};
 
 PetscErrorCode PgSimulationCreate(MPI_Comm comm, PgSimulation *simulation)
 {
@@ -14,9 +14,13 @@ PetscErrorCode PgSimulationCreate(MPI_Comm comm, PgSimulation *simulation)
   sim->fluid_every         = 1;
   sim->setup.comm          = comm;
   sim->setup.load_plate    = -1;
+  sim->setup.load_wall     = -1;
   sim->setup.solid_density = 2000.0;
   sim->output_time = sim->history_time = sim->progress_time = -1.0;
   sim->guard_every                                          = 200;
+  sim->checkpoint_time                                      = -1.0;
+  sim->checkpoint_step                                      = -1;
+  sim->created                                              = MPI_Wtime();
   PetscCall(PgParticlesCreate(comm, &sim->particles));
   PetscCall(PgNeighborsCreate(sim->particles, &sim->neighbors));
   PetscCall(PgDemCreate(sim->particles, sim->neighbors, &sim->dem));
@@ -53,17 +57,29 @@ static PetscErrorCode TimeOptions(PgSimulation sim, PetscOptionItems *PetscOptio
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CaseOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
+/* The case first: it may set options of its own for all that is read later. */
+static PetscErrorCode ChooseCase(PgSimulation sim)
 {
   const char *const *names;
-  PetscInt           count, chosen = 0, fluid = PG_FLUID_NONE;
+  PetscInt           count, chosen = 0;
 
   PetscFunctionBeginUser;
   PetscCall(PgCaseGetNames(&count, &names));
+  PetscOptionsBegin(sim->comm, "", "problem", "");
   PetscCall(PgOptionChoice(PetscOptionsObject, "-case", "problem to set up", count, names, &chosen, NULL));
+  PetscOptionsEnd();
   PetscCall(PgCaseFind(names[chosen], &sim->case_info));
+  PetscCall(sim->case_info->create(sim->comm, &sim->case_context));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CaseOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
+{
+  PetscInt fluid = PG_FLUID_NONE;
+
+  PetscFunctionBeginUser;
   PetscCall(PgOptionChoice(PetscOptionsObject, "-fluid", "dry, Darcy's law, or averaged Navier-Stokes equations", 3,
-                           fluid_words, &fluid, NULL));
+                           PgFluidWords, &fluid, NULL));
   sim->fluid = (PgFluid)fluid;
   PetscCall(PgOptionReal(PetscOptionsObject, "-solid_density", "density of the discs rho_s", "kg/m3", PG_POSITIVE, 1e6,
                          &sim->setup.solid_density, NULL));
@@ -75,15 +91,36 @@ static PetscErrorCode CaseOptions(PgSimulation sim, PetscOptionItems *PetscOptio
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode RestartOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgOptionString(PetscOptionsObject, "-checkpoint",
+                           "checkpoint FILE, written at the end too; the one before it is kept as FILE.1",
+                           sim->checkpoint_file, sizeof sim->checkpoint_file, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-checkpoint_every",
+                         "simulated time between checkpoints; default a tenth of the run", "s", 0.0, 1e9,
+                         &sim->checkpoint_time, NULL));
+  PetscCall(PgOptionString(PetscOptionsObject, "-restart",
+                           "go on from a checkpoint: FILE (or FILE.1 if that is damaged), or the latest of a directory "
+                           "or pattern",
+                           sim->restart_file, sizeof sim->restart_file, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-wall_time",
+                         "end after so much time of the clock, with a checkpoint; 0: no limit", "s", 0.0, 1e9,
+                         &sim->wall_time, NULL));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgSimulationSetFromOptions(PgSimulation sim)
 {
   PetscFunctionBeginUser;
+  PetscCall(ChooseCase(sim));
   PetscOptionsBegin(sim->comm, "", "porograin", "");
   PetscCall(CaseOptions(sim, PetscOptionsObject));
   PetscCall(TimeOptions(sim, PetscOptionsObject));
+  PetscCall(RestartOptions(sim, PetscOptionsObject));
   PetscOptionsEnd();
+  PetscCall(PgPackingExport(sim->comm, NULL));
   if (sim->fluid == PG_FLUID_NONE) sim->fluid_every = 1;
-  PetscCall(sim->case_info->create(sim->comm, &sim->case_context));
   PetscCall(PgParticlesSetFromOptions(sim->particles));
   PetscCall(PgNeighborsSetFromOptions(sim->neighbors));
   PetscCall(PgDemSetFromOptions(sim->dem));
@@ -131,10 +168,11 @@ static PetscErrorCode SetUpTime(PgSimulation sim, PetscReal case_end)
   PgInputCheck(end / dt_f < 1e9, sim->comm, "%g steps to t = %g s with -dt %g s are too many", (double)(end / dt_f),
                (double)end, (double)sim->dt);
   sim->steps = (PetscInt)PetscCeilReal(end / dt_f - 1e-9); /* the end may be a multiple of the step but for rounding */
-  sim->output_every   = Interval(sim->output_time, end / 10.0, dt_f);
-  sim->history_every  = Interval(sim->history_time, end / 1000.0, dt_f);
-  sim->progress_every = Interval(sim->progress_time, end / 20.0, dt_f);
-  sim->guard_every    = PetscMax(1, sim->guard_every / sim->fluid_every);
+  sim->output_every     = Interval(sim->output_time, end / 10.0, dt_f);
+  sim->history_every    = Interval(sim->history_time, end / 1000.0, dt_f);
+  sim->progress_every   = Interval(sim->progress_time, end / 20.0, dt_f);
+  sim->guard_every      = PetscMax(1, sim->guard_every / sim->fluid_every);
+  sim->checkpoint_every = Interval(sim->checkpoint_time, end / 10.0, dt_f);
   if (sim->pore) PetscCall(PgPoreCheckStep(sim->pore, dt_f));
   PetscFunctionReturn(0);
 }
@@ -147,12 +185,6 @@ static PetscErrorCode SetUpWater(PgSimulation sim)
   PetscCall(PgPoreSetUp(sim->pore, sim->dt * (PetscReal)sim->fluid_every));
   PetscCall(PgPoreGetParts(sim->pore, NULL, &pressure));
   PetscCall(PgPressureSetUpSolver(pressure)); /* so that PETSc reads nested solver options before the check */
-  if (sim->output_file[0]) {
-    char file[PETSC_MAX_PATH_LEN];
-    PetscCall(PetscSNPrintf(file, sizeof file, "%.*s-failed.petsc", (int)PetscMax(0, (int)strlen(sim->output_file) - 3),
-                            sim->output_file));
-    PetscCall(PgPressureSetFailureFile(pressure, file));
-  }
   PetscFunctionReturn(0);
 }
 
@@ -166,32 +198,72 @@ static PetscErrorCode CheckOptions(PgSimulation sim)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode NameFailures(PgSimulation sim)
+{
+  PgPressure pressure;
+  char       file[PETSC_MAX_PATH_LEN];
+
+  PetscFunctionBeginUser;
+  if (!sim->pore || !sim->output_file[0]) PetscFunctionReturn(0);
+  PetscCall(PgPoreGetParts(sim->pore, NULL, &pressure));
+  PetscCall(PetscSNPrintf(file, sizeof file, "%.*s-failed.petsc", (int)PetscMax(0, (int)strlen(sim->output_file) - 3),
+                          sim->output_file));
+  PetscCall(PgPressureSetFailureFile(pressure, file));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetUpOutput(PgSimulation sim)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgColumnsSetUp(sim));
+  if (sim->checkpoint_file[0]) {
+    PetscBool same;
+    PetscCall(PetscStrcmp(sim->checkpoint_file, sim->output_file, &same));
+    PgInputCheck(!same, sim->comm, "options -checkpoint and -output name the same file '%s'", sim->output_file);
+    PetscCall(PgCheckpointCheckPlace(sim->comm, sim->checkpoint_file));
+  }
+  if (!sim->output_file[0]) {
+    sim->output_every = 0;
+    PetscFunctionReturn(0);
+  }
+  if (sim->restart_file[0])
+    PetscCall(PgOutputContinue(sim->particles, sim->output_file, sim->columns, sim->column, sim->run, sim->rows,
+                               sim->snapshots, sim->restart_file, &sim->output));
+  else
+    PetscCall(PgOutputCreate(sim->particles, sim->output_file, sim->columns, sim->column, &sim->output));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgSimulationSetUp(PgSimulation sim)
 {
-  const PetscReal asked_end = sim->setup.end_time;
+  const PetscReal asked_end  = sim->setup.end_time;
+  PgCheckpoint    checkpoint = NULL;
+  PetscReal       case_end;
   PetscInt        ids, start;
 
   PetscFunctionBeginUser;
   PetscCall(PgStagePush(PG_STAGE_SETUP));
+  sim->setup.restart = (PetscBool)(sim->restart_file[0] != 0);
   PetscCall(sim->case_info->setup(sim->case_context, &sim->setup));
-  {
-    const PetscReal case_end = sim->setup.end_time;
-    PetscCall(PgNeighborsBuild(sim->neighbors));
-    PetscCall(PgDemRestoreHistory(sim->dem));
-    sim->setup.end_time = asked_end;
-    PetscCall(SetUpTime(sim, case_end));
-  }
-  PetscCall(PgDemForces(sim->dem, 0.0));
-  if (sim->pore) PetscCall(SetUpWater(sim));
-  PetscCall(CheckOptions(sim));
+  if (sim->setup.restart) PetscCall(PgRestartBegin(sim, &checkpoint));
+  case_end = sim->setup.end_time;
+  PetscCall(PgNeighborsBuild(sim->neighbors));
+  PetscCall(PgDemRestoreHistory(sim->dem));
+  sim->setup.end_time = asked_end;
+  PetscCall(SetUpTime(sim, case_end));
   PetscCall(PgParticlesGetIdRange(sim->particles, &start, &ids));
-  if (sim->output_file[0]) {
-    PetscCall(PetscMalloc2(ids, &sim->effective, ids, &sim->volumetric));
-    PetscCall(PgStrainCreate(sim->particles, sim->neighbors, &sim->strain));
-    PetscCall(PgOutputCreate(sim->particles, sim->output_file, COLUMN_COUNT, PgHistoryColumns, &sim->output));
+  PetscCall(PetscMalloc2(ids, &sim->effective, ids, &sim->volumetric));
+  PetscCall(PgStrainCreate(sim->particles, sim->neighbors, &sim->strain)); /* from the lists of the start */
+  if (sim->setup.restart) {
+    PetscCall(PgRestartFinish(sim, &checkpoint));
   } else {
-    sim->output_every = 0;
+    PetscCall(PgDemForces(sim->dem, 0.0));
+    if (sim->pore) PetscCall(SetUpWater(sim));
   }
+  PetscCall(NameFailures(sim));
+  PetscCall(CheckOptions(sim));
+  PetscCall(PgPackingExport(sim->comm, sim->particles));
+  PetscCall(SetUpOutput(sim));
   PetscCall(PgStagePop());
   PetscFunctionReturn(0);
 }
@@ -205,7 +277,7 @@ PetscErrorCode PgSimulationView(PgSimulation sim, PetscViewer viewer)
   PetscCallMPI(MPI_Comm_size(sim->comm, &size));
   PetscCall(PgParticlesGetSizes(sim->particles, NULL, NULL, &global));
   PetscCall(PetscViewerASCIIPrintf(viewer, "porograin %s: case %s, %" PetscInt_FMT " discs on %d ranks, fluid %s\n",
-                                   PG_VERSION, sim->case_info->name, global, (int)size, fluid_words[sim->fluid]));
+                                   PG_VERSION, sim->case_info->name, global, (int)size, PgFluidWords[sim->fluid]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "time step %.4e s, %.1f %% of the critical %.4e s", (double)sim->dt,
                                    100.0 * (double)(sim->dt / sim->dt_critical), (double)sim->dt_critical));
   if (sim->pore)
@@ -228,6 +300,7 @@ PetscErrorCode PgSimulationDestroy(PgSimulation *simulation)
   PetscCall(PgOutputDestroy(&sim->output));
   PetscCall(PgStrainDestroy(&sim->strain));
   PetscCall(PetscFree2(sim->effective, sim->volumetric));
+  PetscCall(PgColumnsDestroy(sim));
   PetscCall(PgPoreDestroy(&sim->pore));
   PetscCall(PgDemDestroy(&sim->dem));
   PetscCall(PgNeighborsDestroy(&sim->neighbors));

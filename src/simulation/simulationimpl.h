@@ -53,16 +53,71 @@ struct PgSimulation_s {
   char           output_file[PETSC_MAX_PATH_LEN];
   PetscReal      output_time, history_time, progress_time; /* as asked [s], < 0: default */
   PetscInt       output_every, history_every, progress_every, guard_every;
-  PetscReal      row[COLUMN_COUNT];
+  PetscInt       columns, wall_column; /* of the history; the first of the walls */
+  PgColumn      *column;
+  PetscReal     *row; /* of the present step */
   PetscReal      peak_load, peak_displacement;
   PetscLogDouble started, last_progress;
   PetscInt       last_progress_step;
   PetscReal     *effective, *volumetric; /* strain by id, scratch */
+
+  /* restart and end */
+  char           case_name[64], fluid_name[16]; /* as checkpoints know them */
+  char           checkpoint_file[PETSC_MAX_PATH_LEN], restart_file[PETSC_MAX_PATH_LEN];
+  PetscReal      checkpoint_time;  /* between checkpoints, as asked [s], < 0: default */
+  PetscInt       checkpoint_every; /* [fluid steps] */
+  PetscInt       checkpoint_step;  /* of the last one, -1: none */
+  PetscLogDouble checkpoint_cost;  /* of the last one [s of wall time] */
+  PetscReal      wall_time;        /* limit [s], 0: none */
+  PetscInt       builds_before;    /* list builds of the run that this program did not make itself */
+  PetscInt       rows, snapshots;  /* in the result file at the checkpoint */
+  char           run[PG_RUN_NAME]; /* of the result file */
+  PetscLogDouble created;
+  PetscInt       next_look, look_every; /* for signals [fluid steps] */
+  PetscLogDouble last_look;
 };
+
+/* simulation.c: names of PgFluid */
+PETSC_INTERN const char *const PgFluidWords[3];
+
+/* restart.c */
+/* Takes the discs of the checkpoint, placed where they were at the start of the run. */
+PETSC_INTERN PetscErrorCode PgRestartBegin(PgSimulation sim, PgCheckpoint *checkpoint);
+/* Lists, histories and state of the time of the checkpoint; with it the checkpoint is closed. */
+PETSC_INTERN PetscErrorCode PgRestartFinish(PgSimulation sim, PgCheckpoint *checkpoint);
+
+/* ending.c: signals, the limit of wall time, and who listens to what we print */
+typedef enum {
+  PG_ENDING_NONE       = 0,
+  PG_ENDING_CHECKPOINT = 1, /* write a checkpoint and go on */
+  PG_ENDING_INTERRUPT  = 2, /* end */
+  PG_ENDING_TERMINATE  = 4, /* write a checkpoint and end */
+  PG_ENDING_WALL_TIME  = 8, /* the same */
+  PG_ENDING_PIPE       = 16 /* the same, without words */
+} PgEnding;
+PETSC_INTERN PetscErrorCode PgEndingStart(PgSimulation sim);
+/* What has come up since the last time, as a sum of PgEnding; the same on all ranks. Collective. */
+PETSC_INTERN PetscErrorCode PgEndingLook(PgSimulation sim, int *ending);
+PETSC_INTERN PetscErrorCode PgEndingStop(PgSimulation sim);
+/* One line on how to go on, and the exit status of an early end. */
+PETSC_INTERN PetscErrorCode PgEndingTell(PgSimulation sim, int ending);
+
+/* postmortem.c: the state of a run that has failed, as a result file of its own. Collective. */
+PETSC_INTERN PetscErrorCode PgPostMortem(PgSimulation sim);
+
+/* columns.c: which columns this run has; those beyond the fixed ones of the present step */
+PETSC_INTERN PetscErrorCode PgColumnsSetUp(PgSimulation sim);
+PETSC_INTERN PetscErrorCode PgColumnsFill(PgSimulation sim);
+PETSC_INTERN PetscErrorCode PgColumnsDestroy(PgSimulation sim);
 
 PETSC_INTERN PetscErrorCode PgMonitorStart(PgSimulation sim);
 PETSC_INTERN PetscErrorCode PgMonitorStep(PgSimulation sim);
 PETSC_INTERN PetscErrorCode PgMonitorEnd(PgSimulation sim);
+/* Computes the row of the present step; the snapshot of it goes into `output`. */
+PETSC_INTERN PetscErrorCode PgMonitorFillRow(PgSimulation sim);
+PETSC_INTERN PetscErrorCode PgMonitorSnapshot(PgSimulation sim, PgOutput output);
+/* List builds since the start of the run, also before a restart. */
+PETSC_INTERN PetscErrorCode PgMonitorGetBuilds(PgSimulation sim, PetscInt *builds);
 PETSC_INTERN PetscErrorCode PgSimulationGuard(PgSimulation sim);
 /* Whether the row of the present step goes into the history. */
 PETSC_INTERN PetscBool PgMonitorDue(PgSimulation sim, PetscInt every);

@@ -56,15 +56,58 @@ PetscErrorCode PgSimulationGuard(PgSimulation sim)
   PetscFunctionReturn(0);
 }
 
+/* One step with its guard. A failure leaves a snapshot of the state behind. */
+static PetscErrorCode Advance(PgSimulation sim)
+{
+  PetscErrorCode err;
+
+  PetscFunctionBeginUser;
+  err = PgSimulationStep(sim);
+  if (!err && PgMonitorDue(sim, sim->guard_every)) err = PgSimulationGuard(sim);
+  if (err) (void)PgPostMortem(sim);
+  PetscFunctionReturn(err);
+}
+
+static PetscErrorCode Checkpoint(PgSimulation sim)
+{
+  PetscErrorCode err;
+
+  PetscFunctionBeginUser;
+  err = PgSimulationCheckpoint(sim);
+  if (err == PETSC_ERR_NOT_CONVERGED) (void)PgPostMortem(sim); /* the guard */
+  PetscFunctionReturn(err);
+}
+
+static PetscErrorCode Loop(PgSimulation sim, int *ending)
+{
+  const int end = PG_ENDING_INTERRUPT | PG_ENDING_TERMINATE | PG_ENDING_WALL_TIME | PG_ENDING_PIPE;
+
+  PetscFunctionBeginUser;
+  *ending = PG_ENDING_NONE;
+  while (sim->step < sim->steps && !(*ending & end)) {
+    PetscCall(Advance(sim));
+    PetscCall(PgMonitorStep(sim));
+    PetscCall(PgEndingLook(sim, ending));
+    if (PgMonitorDue(sim, sim->checkpoint_every) || *ending & PG_ENDING_CHECKPOINT) PetscCall(Checkpoint(sim));
+  }
+  /* at the end, so that the run can be made longer; after Ctrl-C the user does not want to wait */
+  if (!(*ending & PG_ENDING_INTERRUPT)) PetscCall(Checkpoint(sim));
+  if (sim->step == sim->steps) *ending = PG_ENDING_NONE;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgSimulationRun(PgSimulation sim)
 {
+  PetscErrorCode err;
+  int            ending;
+
   PetscFunctionBeginUser;
   PetscCall(PgMonitorStart(sim));
-  while (sim->step < sim->steps) {
-    PetscCall(PgSimulationStep(sim));
-    if (PgMonitorDue(sim, sim->guard_every)) PetscCall(PgSimulationGuard(sim));
-    PetscCall(PgMonitorStep(sim));
-  }
+  PetscCall(PgEndingStart(sim));
+  err = Loop(sim, &ending);
+  PetscCall(PgEndingStop(sim));
+  PetscCall(err);
   PetscCall(PgMonitorEnd(sim));
+  if (ending) PetscCall(PgEndingTell(sim, ending));
   PetscFunctionReturn(0);
 }

@@ -37,7 +37,7 @@ static const char *FileName(const char stem[], const char ending[])
   return NULL;
 }
 
-static void RemoveResult(const char stem[])
+static inline void RemoveResult(const char stem[])
 {
   if (test_rank == 0) {
     (void)unlink(FileName(stem, ".h5"));
@@ -100,7 +100,7 @@ static PgParticles MakeDiscs(PetscInt n, PetscInt extra_fields, const PgFieldInf
 /* Standard error of rank 0 between the two calls, on every rank. */
 static int caught_error = -1;
 
-static void CatchErrors(void)
+static inline void CatchErrors(void)
 {
   (void)fflush(stderr);
   caught_error = dup(STDERR_FILENO);
@@ -112,7 +112,7 @@ static void CatchErrors(void)
   }
 }
 
-static void CaughtErrors(char text[4096])
+static inline void CaughtErrors(char text[4096])
 {
   (void)fflush(stderr);
   (void)memset(text, 0, 4096);
@@ -127,7 +127,7 @@ static void CaughtErrors(char text[4096])
 }
 
 /* One message, and nothing of PETSc's or HDF5's own printing with it. */
-static void CheckMessage(const char text[], const char start[], const char part[])
+static inline void CheckMessage(const char text[], const char start[], const char part[])
 {
   if (strncmp(text, start, strlen(start)) || !strstr(text, part)) {
     print_error("expected '%s ... %s', got '%s'\n", start, part, text);
@@ -136,7 +136,7 @@ static void CheckMessage(const char text[], const char start[], const char part[
   assert_ptr_equal(strchr(text, '\n'), text + strlen(text) - 1);
 }
 
-static char *ReadWholeFile(const char file[])
+static inline char *ReadWholeFile(const char file[])
 {
   FILE *stream = fopen(file, "rb");
   char *text;
