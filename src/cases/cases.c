@@ -1,7 +1,12 @@
 /* Registration of cases, and what all of them need. */
 #include "casesimpl.h"
 
-static const PgCaseInfo *const cases[] = {&PgCasePanel};
+static const PgCaseInfo *const cases[] = {
+    &PgCasePanel,          &PgCasePacking,           &PgCaseBedDarcy,       &PgCaseBedErgun,
+    &PgCaseBedNsToDarcy,   &PgCaseColumnHydrostatic, &PgCaseColumnTerzaghi, &PgCaseColumnSeepage,
+    &PgCaseUndrained,      &PgCaseDiscCollision,     &PgCaseDiscOnPlane,    &PgCaseDiscOnIncline,
+    &PgCaseLatticeModulus, &PgCaseBiaxial,
+};
 enum { CASES = sizeof cases / sizeof *cases };
 static const char *names[CASES];
 

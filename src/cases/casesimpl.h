@@ -3,4 +3,21 @@
 
 #include <porograin/cases.h>
 
-PETSC_INTERN const PgCaseInfo PgCasePanel;
+PETSC_INTERN const PgCaseInfo PgCasePanel, PgCasePacking;
+PETSC_INTERN const PgCaseInfo PgCaseBedDarcy, PgCaseBedErgun, PgCaseBedNsToDarcy;
+PETSC_INTERN const PgCaseInfo PgCaseColumnHydrostatic, PgCaseColumnTerzaghi, PgCaseColumnSeepage, PgCaseUndrained;
+PETSC_INTERN const PgCaseInfo PgCaseDiscCollision, PgCaseDiscOnPlane, PgCaseDiscOnIncline, PgCaseLatticeModulus,
+    PgCaseBiaxial;
+
+/* Makes a few discs, ids in the order of the table. Collective. */
+typedef struct {
+  PetscReal x[2], v[2], spin, radius; /* [m], [m/s], [rad/s], [m] */
+} PgCaseDisc;
+PETSC_INTERN PetscErrorCode PgCaseFewDiscs(PgCaseSetup *setup, PetscInt count, const PgCaseDisc disc[]);
+PETSC_INTERN PetscReal      PgCaseDiscMass(const PgCaseSetup *setup, PetscReal radius);
+/* Frees a context made by PetscNew(). */
+PETSC_INTERN PetscErrorCode PgCaseDestroyContext(void **context);
+
+/* Sets the options "-name value -name value ..." that the user has not given; to be called in `create`. An option
+   whose name goes on from one that the user gave (-bc_top_pressure from -bc_top) is left out, too. Collective. */
+PETSC_INTERN PetscErrorCode PgCaseDefaults(const char options[]);
