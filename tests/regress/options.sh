@@ -48,7 +48,7 @@ row 2 'unknown option -pressure_ksp_tpye cg; did you mean -pressure_ksp_type\?' 
 row 2 'unknown option -pressure_pc_tpye jacobi; did you mean -pressure_pc_type\?' -fluid ns -pressure_pc_tpye jacobi
 row 2 'unknown option -pressure_pc_hypre_boomeramg_strong_treshold 0.5; did you mean -pressure_pc_hypre_boomeramg_strong_threshold\?' \
   -fluid ns -pressure_pc_hypre_boomeramg_strong_treshold 0.5
-row 2 'unknown option -pressure_mg_levels_ksp_typ cg; did you mean -pressure_mg_levels_ksp_type\?' \
+row 2 'unknown option -pressure_mg_levels_ksp_typ cg; did you mean -pressure_mg_levels_(1_)?ksp_type\?' \
   -fluid ns -pressure_pc_type gamg -pressure_mg_levels_ksp_typ cg
 row 2 'unknown option -pressure_sub_pc_typ icc; did you mean -pressure_sub_pc_type\?' \
   -fluid ns -pressure_pc_type bjacobi -pressure_sub_pc_typ icc
@@ -156,6 +156,8 @@ wait
 row 2 'option -dt: 1e-05 s is above the critical time step' -dt 1e-5
 wait
 row 2 '-pressure_ksp_type.*cgg' -fluid ns -pressure_ksp_type cgg
+wait
+row 2 '-pressure_ksp_rtol .*tight' -fluid ns -pressure_ksp_rtol tight
 wait
 row 2 "argument 'stray' belongs to no option" stray
 wait

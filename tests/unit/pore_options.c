@@ -143,7 +143,7 @@ static void Warnings(void **state)
 {
   const struct {
     const char *options, *word;
-  } cases[] = {{"-ns_theta 0.5", "-ns_theta 0.5 is below 0.55"},
+  } cases[] = {{"-ns_theta 0.5", "-ns_theta 0.5 is below 0.57"},
                {"-coupling drag_and_pressure -coupling_scheme staggered -ns_continuity averaged", "staggered"},
                {"-ns_theta 0.6", NULL}};
   PetscMPIInt rank;
