@@ -42,9 +42,16 @@ PetscErrorCode PgSimulationStep(PgSimulation sim)
   PetscFunctionBeginUser;
   if (sim->pore) PetscCall(PgPorePredict(sim->pore, dt_f));
   for (PetscInt m = 0; m < sim->fluid_every; m++) PetscCall(MoveDiscs(sim));
-  if (sim->pore) PetscCall(PgPoreCorrect(sim->pore, dt_f));
   sim->step++;
   sim->time = (PetscReal)sim->step * dt_f;
+  if (sim->pore) {
+    PgPressure pressure;
+    /* explicit sweeps compute their residual only where a row of the history shows it */
+    PetscCall(PgPoreGetParts(sim->pore, NULL, &pressure));
+    PetscCall(PgPressureRequestResidual(
+        pressure, (PetscBool)(PgMonitorDue(sim, sim->history_every) || PgMonitorDue(sim, sim->progress_every))));
+    PetscCall(PgPoreCorrect(sim->pore, dt_f));
+  }
   PetscFunctionReturn(0);
 }
 
