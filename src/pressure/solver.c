@@ -53,12 +53,41 @@ static PetscErrorCode SettleNorm(KSP ksp)
   PetscFunctionReturn(0);
 }
 
+/* What PETSc reads only when it solves would count as unknown before the first step: ask for it here. */
+static PetscErrorCode KnowLateOptions(void)
+{
+  static const char *const name[] = {"-ksp_converged_reason",
+                                     "-ksp_converged_reason_view_cancel",
+                                     "-ksp_final_residual",
+                                     "-ksp_test_null_space",
+                                     "-ksp_plot_eigenvalues",
+                                     "-ksp_plot_eigenvalues_explicitly",
+                                     "-ksp_plot_eigencontours",
+                                     "-ksp_view",
+                                     "-ksp_view_pre",
+                                     "-ksp_view_mat",
+                                     "-ksp_view_pmat",
+                                     "-ksp_view_rhs",
+                                     "-ksp_view_solution",
+                                     "-ksp_view_mat_explicit",
+                                     "-ksp_view_diagonal_scale",
+                                     "-ksp_view_eigenvalues_explicit",
+                                     "-ksp_view_preconditioned_operator_explicit"};
+  PetscBool                set;
+
+  PetscFunctionBeginUser;
+  for (size_t i = 0; i < sizeof name / sizeof *name; i++)
+    PetscCall(PetscOptionsHasName(NULL, "pressure_", name[i], &set));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPressureSolverFromOptions(PgPressure q, KSP ksp)
 {
   PetscBool preonly, user_norm;
 
   PetscFunctionBeginUser;
   PetscCall(KSPSetFromOptions(ksp));
+  PetscCall(KnowLateOptions());
   PetscCall(PetscOptionsHasName(NULL, "pressure_", "-ksp_norm_type", &user_norm));
   if (!user_norm) PetscCall(SettleNorm(ksp));
   PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &preonly));
