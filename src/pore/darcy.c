@@ -12,17 +12,20 @@ static PetscReal SolidMobility(PgPore pore, PetscInt a, PetscReal dt_f)
 static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
 {
   const PetscBool pressure  = (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE);
-  const PetscBool projected = PgPoreIsProjected(pore);
-  PgPoreArrays    s;
+  const PetscBool projected = PgPoreIsProjected(pore),
+                  increment = (PetscBool)(pore->coupling_scheme == PG_SCHEME_INCREMENTAL);
+  PgPoreArrays s;
 
   PetscFunctionBeginUser;
   PetscCall(PgPoreGetArrays(pore, &s));
   for (PetscInt a = 0; a < s.owned; a++) {
     const PetscReal V_p = PETSC_PI * s.radius[a] * s.radius[a], n = s.n[a];
     for (int i = 0; i < 2; i++) {
-      /* the projection takes over the force, but for the vertical one of discs on a plate */
-      const PetscBool here = (PetscBool)(!projected || (s.plate[a] != 0.0 && i == 1));
+      /* the projection takes over the force, but for the vertical one of discs on a plate; or replaces it by the new one */
+      const PetscBool kick = (PetscBool)(projected && increment && PgPoreIsFree(&s, a));
+      const PetscBool here = (PetscBool)(!projected || kick || (s.plate[a] != 0.0 && i == 1));
       PetscReal       f    = here ? -V_p * pore->grad_p[2 * a + i] * (n + (pressure ? 1.0 - n : 0.0)) / (1.0 - n) : 0.0;
+      s.kick[2 * a + i]    = kick ? f * dt_f / (V_p * pore->rho_s) : 0.0;
       if (pressure) f -= V_p * pore->rho_f * pore->gravity[i];
       s.fluid_force[2 * a + i] = s.detached[a] != 0.0 ? 0.0 : f;
     }
@@ -52,7 +55,8 @@ static PetscErrorCode Mobility(PgPore pore, PetscReal dt_f, PetscReal kappa[], P
 
 /* div(kappa grad p) = Dn/Dt + n div v - inflow per area. Through a side water flows relative to the discs,
    k_p dp/dn = w, whether they move or not: that source is in proportion to the share of k_p in kappa. With a constant
-   k_p, kappa changes little from disc to disc and is divided out. */
+   k_p, kappa changes little from disc to disc and is divided out. What the old pressure has done to v* already is added
+   (`incremental`). */
 static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
 {
   PetscReal   *kappa = pore->b;
@@ -63,10 +67,15 @@ static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
   PetscCall(PgPoreGetArrays(pore, &s));
   PetscCall(Mobility(pore, dt_f, kappa, &uniform));
   PetscCall(PgPorosityChange(pore, &s, dt_f, pore->a, Z));
+  for (PetscInt a = 0; a < s.owned; a++) Z[a] += pore->n_flow[a] * pore->a[a];
+  if (PgPoreIsProjected(pore) && pore->coupling_scheme == PG_SCHEME_INCREMENTAL)
+    PetscCall(PgPressureLaplacian(pore, &s, pore->a));
+  else
+    PetscCall(PetscArrayzero(pore->a, s.owned));
   for (PetscInt a = 0; a < s.owned; a++) {
     const PetscReal k_p = PgPermeability(pore, pore->n_flow[a], s.radius[a]);
 
-    Z[a] += pore->n_flow[a] * pore->a[a] - kappa[a] / k_p * (PgBoundaryInflow(pore, &s, a) / s.volume[a]);
+    Z[a] += (kappa[a] - k_p) * pore->a[a] - kappa[a] / k_p * (PgBoundaryInflow(pore, &s, a) / s.volume[a]);
     if (uniform) Z[a] /= kappa[a];
   }
   PetscFunctionReturn(0);
@@ -83,7 +92,7 @@ static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
     const PetscReal mobility = PgPoreIsProjected(pore) && PgPoreIsFree(&s, a) ? SolidMobility(pore, a, dt_f) : 0.0;
 
     for (PetscInt i = 2 * a; i < 2 * a + 2; i++) {
-      if (mobility > 0.0) s.v[i] -= mobility * pore->grad_p[i];
+      if (mobility > 0.0) s.v[i] -= s.kick[i] + mobility * pore->grad_p[i];
       s.u[i] = s.detached[a] != 0.0 ? s.v[i] : s.v[i] - k_p * pore->grad_p[i] / pore->n_flow[a];
     }
   }

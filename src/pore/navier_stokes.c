@@ -3,10 +3,11 @@
 
 /* Force of the water on disc a per unit length: drag (Eq. 24), and the pressure gradient where it is not
    left to the projection. */
-static void ForceOnDiscs(PgPore pore, const PgPoreArrays *s, const PetscReal F[])
+static void ForceOnDiscs(PgPore pore, const PgPoreArrays *s, const PetscReal F[], PetscReal dt_f)
 {
   const PetscBool pressure  = (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE);
   const PetscBool staggered = (PetscBool)(pressure && pore->coupling_scheme == PG_SCHEME_STAGGERED);
+  const PetscBool increment = (PetscBool)(pressure && pore->coupling_scheme == PG_SCHEME_INCREMENTAL);
 
   for (PetscInt a = 0; a < s->owned; a++) {
     const PetscReal V_p = PETSC_PI * s->radius[a] * s->radius[a], n = s->n[a];
@@ -14,7 +15,9 @@ static void ForceOnDiscs(PgPore pore, const PgPoreArrays *s, const PetscReal F[]
       PetscReal f = -n * F[2 * a + i] * V_p / (1.0 - n);
       /* a disc on a plate is not projected: its vertical force belongs to the reaction of the plate */
       const PetscBool on_plate = (PetscBool)(pressure && s->plate[a] != 0.0 && i == 1);
-      if ((staggered || on_plate) && s->detached[a] == 0.0) f -= V_p * pore->grad_p[2 * a + i];
+      const PetscBool kick     = (PetscBool)(increment && PgPoreIsFree(s, a)); /* to be replaced by the new one */
+      s->kick[2 * a + i]       = kick ? -dt_f / pore->rho_s * pore->grad_p[2 * a + i] : 0.0;
+      if ((staggered || kick || on_plate) && s->detached[a] == 0.0) f -= V_p * pore->grad_p[2 * a + i];
       if (pressure) f -= V_p * pore->rho_f * pore->gravity[i]; /* buoyancy: the hydrostatic part of -V grad p */
       s->fluid_force[2 * a + i] = s->detached[a] != 0.0 ? 0.0 : f;
     }
@@ -67,7 +70,7 @@ static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
   PetscFunctionBeginUser;
   PetscCall(PgPoreGetArrays(pore, &s));
   PetscCall(PgDragForce(pore, &s, s.u, s.drag));
-  ForceOnDiscs(pore, &s, s.drag);
+  ForceOnDiscs(pore, &s, s.drag, dt_f);
   PetscCall(PgSphVectorGradient(pore->sph, s.u, pore->grad_u));
   PetscCall(PgCharacteristic(pore, &s, dt_f, pore->b, s.p_guess));
   PetscCall(PetscArraycpy(s.u_tilde, pore->b, 2 * s.owned));
@@ -77,7 +80,8 @@ static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
 }
 
 /* Eq. 50; `averaged` continuity adds -rho_f/(theta dt) S with S = -[Dn/Dt + (u~ - v).grad n]/n, and the
-   two-phase projection divides by 1 + (1 - n) rho_f/(n theta rho_s). */
+   two-phase projection divides by 1 + (1 - n) rho_f/(n theta rho_s), having added what the old pressure has done to v*
+   already (`incremental`). */
 static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
 {
   const PetscReal   scale   = pore->rho_f / (pore->theta * dt_f);
@@ -103,10 +107,16 @@ static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
     }
   }
   PetscCall(PgSphDivergence(pore->sph, s.drag, pore->a));
+  for (PetscInt a = 0; a < s.owned; a++) Z[a] = scale * Z[a] + pore->a[a];
+  if (project && pore->coupling_scheme == PG_SCHEME_INCREMENTAL)
+    PetscCall(PgPressureLaplacian(pore, &s, pore->a));
+  else
+    PetscCall(PetscArrayzero(pore->a, s.owned));
   for (PetscInt a = 0; a < s.owned; a++) {
-    Z[a] = scale * Z[a] + pore->a[a];
-    if (project && PgPoreHasAddedMass(&s, &c, a))
-      Z[a] /= 1.0 + (1.0 - pore->n_flow[a]) * pore->rho_f / (pore->n_flow[a] * pore->theta * pore->rho_s);
+    if (project && PgPoreHasAddedMass(&s, &c, a)) {
+      const PetscReal added = (1.0 - pore->n_flow[a]) * pore->rho_f / (pore->n_flow[a] * pore->theta * pore->rho_s);
+      Z[a]                  = (Z[a] + added * pore->a[a]) / (1.0 + added);
+    }
     /* where u.e is prescribed Eq. 47 leaves dp/de = F.e, which a side with nothing said about its pressure has not */
     Z[a] -= PgBoundaryForce(pore, &s, s.drag, a) / s.volume[a];
   }
@@ -126,7 +136,7 @@ static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
     const PetscBool moves = (PetscBool)(project && PgPoreIsFree(&s, a));
     for (PetscInt i = 2 * a; i < 2 * a + 2; i++) {
       s.u[i] = s.u_tilde[i] - scale * (pore->grad_p[i] - s.drag[i]);
-      if (moves) s.v[i] -= dt_f / pore->rho_s * pore->grad_p[i];
+      if (moves) s.v[i] -= s.kick[i] + dt_f / pore->rho_s * pore->grad_p[i];
     }
   }
   PetscCall(PgBoundaryVelocity(pore, &s, s.u));

@@ -7,7 +7,7 @@ static const char *const porosity_words[]          = {"rae", "kinematic", "kerne
 static const char *const rate_words[]              = {"kinematic", "sampled"};
 static const char *const continuity_words[]        = {"solenoidal", "averaged"};
 static const char *const coupling_words[]          = {"drag", "drag_and_pressure"};
-static const char *const scheme_words[]            = {"projection", "staggered"};
+static const char *const scheme_words[]            = {"projection", "staggered", "incremental"};
 static const char *const tracking_words[]          = {"initial", "surface"};
 static const char *const permeability_words[]      = {"constant", "kozeny_carman"};
 static const char *const guess_words[]             = {"characteristic", "last"};
@@ -35,6 +35,11 @@ static PetscErrorCode RegisterFields(PgPore pore)
       {&pore->p_guess, {"pressure_guess", 1, "Pa", "pressure carried along the characteristic, Eq. 59", KEPT}},
       {&pore->drag, {"drag", 2, "N/m3", "force of the discs on the water, Eqs. 20-23", STATE}},
       {&pore->Q, {"fluid_acceleration", 2, "m/s2", "forces on the water per mass, Eq. 41", STATE}},
+      {&pore->kick,
+       {"pressure_kick", 2, "m/s",
+        "velocity that the pressure of t_n gives the disc in the fluid step, to be replaced by "
+        "that of t_n+1",
+        KEPT}},
       {&pore->side, {"side", 1, "1", "bit s: formed side s (left, right, bottom, top) at the start", KEPT}},
       {&pore->surface, {"surface", 1, "1", "1: came to the surface later", KEPT}},
       {&pore->detached, {"detached", 1, "1", "1: outside the water", KEPT}},
@@ -170,17 +175,19 @@ static PetscErrorCode SchemeOptions(PgPore pore, PetscOptionItems *PetscOptionsO
   /* div u = 0 does not contain the discs' velocity: nothing to project */
   scheme = pore->fluid == PG_FLUID_NS && continuity == PG_CONTINUITY_SOLENOIDAL ? PG_SCHEME_STAGGERED
                                                                                 : PG_SCHEME_PROJECTION;
-  PetscCall(
-      PgOptionChoice(PetscOptionsObject, "-coupling_scheme",
-                     "pressure-gradient force: both phases projected with the new pressure, or force of the old one", 2,
-                     scheme_words, &scheme, &set));
+  PetscCall(PgOptionChoice(
+      PetscOptionsObject, "-coupling_scheme",
+      "pressure-gradient force: both phases projected with the new pressure; force of the old one; or that, "
+      "corrected by projection with the increment",
+      3, scheme_words, &scheme, &set));
   PgInputCheck(!set || coupling == PG_COUPLING_DRAG_AND_PRESSURE, PetscOptionsObject->comm,
                "option -coupling_scheme has a meaning only with -coupling drag_and_pressure");
   PgInputCheck(!(pore->fluid == PG_FLUID_NS && continuity == PG_CONTINUITY_SOLENOIDAL &&
-                 coupling == PG_COUPLING_DRAG_AND_PRESSURE && scheme == PG_SCHEME_PROJECTION),
+                 coupling == PG_COUPLING_DRAG_AND_PRESSURE && scheme != PG_SCHEME_STAGGERED),
                PetscOptionsObject->comm,
-               "options -coupling_scheme projection and -ns_continuity solenoidal contradict each other: div u = 0 "
-               "does not contain the discs' velocity");
+               "options -coupling_scheme %s and -ns_continuity solenoidal contradict each other: div u = 0 "
+               "does not contain the discs' velocity",
+               scheme_words[scheme]);
   PetscCall(PgOptionChoice(PetscOptionsObject, "-porosity",
                            "sample circle (Eqs. 61, 62), (1-n) div v, or kernel-weighted", 3, porosity_words, &porosity,
                            NULL));

@@ -7,7 +7,7 @@ typedef enum { PG_POROSITY_RAE, PG_POROSITY_KINEMATIC, PG_POROSITY_KERNEL } PgPo
 typedef enum { PG_RATE_KINEMATIC, PG_RATE_SAMPLED } PgPorosityRate;
 typedef enum { PG_CONTINUITY_SOLENOIDAL, PG_CONTINUITY_AVERAGED } PgContinuity;
 typedef enum { PG_COUPLING_DRAG, PG_COUPLING_DRAG_AND_PRESSURE } PgCoupling;
-typedef enum { PG_SCHEME_PROJECTION, PG_SCHEME_STAGGERED } PgCouplingScheme;
+typedef enum { PG_SCHEME_PROJECTION, PG_SCHEME_STAGGERED, PG_SCHEME_INCREMENTAL } PgCouplingScheme;
 typedef enum { PG_TRACKING_INITIAL, PG_TRACKING_SURFACE } PgTracking;
 typedef enum { PG_GUESS_CHARACTERISTIC, PG_GUESS_LAST } PgGuess;
 
@@ -58,7 +58,7 @@ struct PgPore_s {
 
   /* fields */
   PgField porosity, porosity_sample, porosity_initial, porosity_before, rae_area, kernel_start;
-  PgField u, w, p, p_fixed, p_prescribed, u_tilde, p_guess, drag, Q;
+  PgField u, w, p, p_fixed, p_prescribed, u_tilde, p_guess, drag, Q, kick;
   PgField side, surface, detached, fluid_force, plate, volume, divergence;
 
   /* scratch by local index, ghosts included; valid inside one call, but grad_p lives from the end of a
@@ -82,8 +82,9 @@ PETSC_INTERN const PgFluidScheme PgSchemeDarcy, PgSchemeNavierStokes;
 /* arrays of one fluid step, fetched once */
 typedef struct {
   PetscInt   owned, local;
-  PetscReal *x, *v, *radius, *n, *u, *p, *u_tilde, *p_guess, *drag, *Q, *side, *surface, *detached, *plate, *volume;
-  PetscReal *fluid_force, *w;
+  PetscReal *x, *v, *radius, *n, *u, *p, *u_tilde, *p_guess, *drag, *Q, *kick, *side, *surface, *detached, *plate,
+      *volume;
+  PetscReal       *fluid_force, *w;
   const PetscReal *n_flow;
 } PgPoreArrays;
 PETSC_INTERN PetscErrorCode PgPoreGetArrays(PgPore pore, PgPoreArrays *arrays);
@@ -116,10 +117,12 @@ PETSC_INTERN PetscReal      PgPermeability(PgPore pore, PetscReal n, PetscReal r
 PETSC_INTERN PetscErrorCode PgCharacteristic(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, PetscReal u_f[],
                                              PetscReal p_f[]);
 PETSC_INTERN PetscErrorCode PgPressureGradient(PgPore pore);
+/* Laplacian of the excess pressure of t_n on the geometry of t_n+1, before the solve. */
+PETSC_INTERN PetscErrorCode PgPressureLaplacian(PgPore pore, const PgPoreArrays *s, PetscReal laplacian[]);
 
 static inline PetscBool PgPoreIsProjected(PgPore pore)
 {
-  return (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE && pore->coupling_scheme == PG_SCHEME_PROJECTION);
+  return (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE && pore->coupling_scheme != PG_SCHEME_STAGGERED);
 }
 
 /* Discs that the two-phase projection moves. */

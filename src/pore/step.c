@@ -38,6 +38,7 @@ PetscErrorCode PgPoreGetArrays(PgPore pore, PgPoreArrays *s)
   PetscCall(PgParticlesGetArray(p, pore->p_guess, &s->p_guess));
   PetscCall(PgParticlesGetArray(p, pore->drag, &s->drag));
   PetscCall(PgParticlesGetArray(p, pore->Q, &s->Q));
+  PetscCall(PgParticlesGetArray(p, pore->kick, &s->kick));
   PetscCall(PgParticlesGetArray(p, pore->side, &s->side));
   PetscCall(PgParticlesGetArray(p, pore->surface, &s->surface));
   PetscCall(PgParticlesGetArray(p, pore->detached, &s->detached));
@@ -96,6 +97,15 @@ PetscErrorCode PgPressureGradient(PgPore pore)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgPressureLaplacian(PgPore pore, const PgPoreArrays *s, PetscReal laplacian[])
+{
+  PetscFunctionBeginUser;
+  for (PetscInt a = 0; a < s->local; a++)
+    pore->head[a] = s->p[a] - pore->rho_f * (pore->gravity[0] * s->x[2 * a] + pore->gravity[1] * s->x[2 * a + 1]);
+  PetscCall(PgSphLaplacian(pore->sph, pore->head, laplacian));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Observe(PgPore pore)
 {
   PgPoreArrays s;
@@ -104,6 +114,34 @@ static PetscErrorCode Observe(PgPore pore)
   PetscCall(PgPoreGetArrays(pore, &s));
   for (PetscInt a = 0; a < s.owned; a++)
     for (PetscInt i = 2 * a; i < 2 * a + 2; i++) s.w[i] = s.n[a] * (s.u[i] - s.v[i]);
+  PetscFunctionReturn(0);
+}
+
+/* On a side without a prescribed pressure the projection pushes nothing outward, while the discs there follow the
+   contact forces: it amplifies their normal velocity in each step, unless a plate prescribes it. */
+static PetscErrorCode WarnOfFreeSides(PgPore pore)
+{
+  PgPoreArrays s;
+  PetscInt     count = 0;
+  MPI_Comm     comm  = PgParticlesComm(pore->particles);
+
+  PetscFunctionBeginUser;
+  if (!PgPoreIsProjected(pore)) PetscFunctionReturn(0);
+  PetscCall(PgPoreGetArrays(pore, &s));
+  for (PetscInt a = 0; a < s.owned; a++) {
+    PetscBool open = PETSC_FALSE;
+    for (int i = 0; i < PG_SIDE_COUNT; i++)
+      if (((int)s.side[a] >> i) & 1) open = (PetscBool)(open || pore->boundary[i].kind != PG_BC_DRAINED);
+    count += open && s.plate[a] == 0.0;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
+  if (!count) PetscFunctionReturn(0);
+  PetscCall(PetscPrintf(comm,
+                        "warning: %" PetscInt_FMT
+                        " discs of sides that are not drained are on no plate: the projection of -coupling "
+                        "drag_and_pressure is unstable there; make these sides drained, or use -coupling drag\n",
+                        count));
+  pore->advice = "; free sides that are not drained are unstable with -coupling drag_and_pressure";
   PetscFunctionReturn(0);
 }
 
@@ -132,6 +170,7 @@ PetscErrorCode PgPoreSetUp(PgPore pore, PetscReal dt_f)
   }
   PetscCall(PgPoreRefresh(pore));
   PetscCall(PgPressureUpdate(pore->pressure, NULL));
+  PetscCall(WarnOfFreeSides(pore));
   PetscFunctionReturn(0);
 }
 
