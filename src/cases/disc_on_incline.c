@@ -7,9 +7,9 @@
      no rolling resistance, tan(theta) > 3 mu:  slips,  a = g (sin(theta) - mu cos(theta)), alpha = -2 mu g cos(theta)/r
      tan(theta) <= mu_theta:                    rests
      mu_theta < tan(theta):                     rolls,  a = 2/3 g (sin(theta) - mu_theta cos(theta)) while it does not slip
-   Expected: constant acceleration is exact for the integrator; what is left is the first stretch of the springs,
-   m g/k_s of the way (dashpots c_s, c_theta make the swing die out), and with slip or moment at their caps from the
-   start half a step without them: order 1 in the time step.  Test: tests/verify/dem_incline.c */
+   Expected: constant acceleration is exact for the integrator; what is left is the way that loads the springs, m g/k_s
+   (dashpots c_s, c_theta make the swing die out): order 1 in 1/sqrt(k_s) for the speed of a slipping disc.
+   Test: tests/verify/dem_incline.c */
 #include "casesimpl.h"
 
 typedef struct {

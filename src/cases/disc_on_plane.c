@@ -7,7 +7,8 @@
    Exact, rolling from the start (w0 = -v0/r) with the moment arm mu_theta r of Eqs. 5-6 and k_r = 0: deceleration
    2/3 mu_theta g, stop after 3 v0^2/(4 mu_theta g) at t = 3 v0/(2 mu_theta g).
    The springs of the contact swing when sliding turns into rolling: with dashpots c_s, c_theta they die out.
-   Expected order in the time step: 1 (at the start the springs are empty: half a step is without friction).
+   Expected: with a dashpot friction is at its cap from the first moment on, and constant forces are exact for the
+   integrator at any time step; rolling resistance acts after the sliding spring has stretched by 2/3 mu_theta m g/k_s.
    Test: tests/verify/dem_plane.c */
 #include "casesimpl.h"
 

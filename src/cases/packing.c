@@ -134,6 +134,7 @@ static PetscErrorCode ReadSource(PetscOptionItems *PetscOptionsObject, PackingCa
                "case packing needs its discs: -packing FILE or -packing_generate hexagonal|square|random");
   PgInputCheck(!c->from_file || !generate, PetscOptionsObject->comm,
                "options -packing and -packing_generate contradict each other: give one");
+  if (c->from_file) PetscCall(PgPackingCheckOutput(PetscOptionsObject->comm, c->file));
   PgInputCheck(!group || c->from_file, PetscOptionsObject->comm, "option -packing_group belongs to -packing FILE");
   PetscCall(ReadInts(PetscOptionsObject, c));
   PetscCall(PgOptionReals(PetscOptionsObject, "-packing_size", "width and height of the box to fill", "m", 2,

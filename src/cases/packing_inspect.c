@@ -25,7 +25,7 @@ typedef struct {
 
 /* ---- discs where their neighbours are ---- */
 
-static PetscErrorCode Radii(MPI_Comm comm, const PgPacking *packing, PgPackingFindings *f)
+static PetscErrorCode Radii(MPI_Comm comm, const char from[], const PgPacking *packing, PgPackingFindings *f)
 {
   PetscReal  most[2] = {0, -PETSC_MAX_REAL};
   PgExactSum sum     = {.not_finite = 0};

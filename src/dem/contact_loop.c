@@ -64,7 +64,7 @@ static inline __attribute__((always_inline)) void Law(PetscInt n, const PgContac
     motion.sliding_rate = (b->uy[k] * nx - b->ux[k] * ny) + spin;
     motion.rolling_rate = -spin;
     motion.spin_rate    = b->w_a[k] - b->w_j[k];
-    f                   = PgLi2007(p, &motion, dt, &h, lost ? &lost[3 * k] : NULL);
+    f                   = PgLi2007(p, &motion, dt, &h, lost ? &lost[PG_LOST * k] : NULL);
     f_s[k]              = h.f_s;
     f_r[k]              = h.f_r;
     m_r[k]              = h.m_r;
@@ -86,13 +86,13 @@ static inline __attribute__((always_inline)) void Loop(const PgContactParameters
   for (; first + BLOCK <= list->padded; first += BLOCK) {
     Gather(BLOCK, list->low + first, list->high + first, discs, &block);
     Law(BLOCK, &p, dt, &block, pairs->f_s + first, pairs->f_r + first, pairs->m_r + first, pairs->result + 4 * first,
-        energy ? pairs->lost + 3 * first : NULL);
+        energy ? pairs->lost + PG_LOST * first : NULL);
   }
   if (first < list->padded) {
     const PetscInt rest = list->padded - first;
     Gather(rest, list->low + first, list->high + first, discs, &block);
     Law(rest, &p, dt, &block, pairs->f_s + first, pairs->f_r + first, pairs->m_r + first, pairs->result + 4 * first,
-        energy ? pairs->lost + 3 * first : NULL);
+        energy ? pairs->lost + PG_LOST * first : NULL);
   }
 }
 

@@ -16,7 +16,7 @@ typedef struct {
 typedef struct {
   PetscReal *f_s, *f_r, *m_r; /* PgContactHistory as one array each */
   PetscReal *result;          /* (4) force on low (x, y) [N/m], torque on low, torque on high [N] */
-  PetscReal *lost;            /* (3) energy taken by the caps in the last step [J/m]; NULL without energy accounts */
+  PetscReal *lost;            /* (PG_LOST) as the law gives it; NULL without energy accounts */
 } PgDemPairs;
 
 /* A wall with what is kept about it. */
@@ -32,12 +32,15 @@ typedef struct {
   PetscInt         disc, wall; /* local index, wall index */
   PgContactHistory history;
   PgContactForce   force;   /* on the disc, at the last evaluation */
-  PetscReal        lost[3]; /* energy taken by the caps in the last step [J/m] */
+  PetscReal        lost[4]; /* as the law gives it */
 } PgWallContact;
 enum { PG_WALL_RECORD = 7 }; /* reals of one in "wall_history" */
 
-/* A contact law: of one pair, and of all pairs [0, list->padded) at once with the same bits. `lost` (3) is the energy
-   taken by the caps of sliding, rolling and moment; NULL: not wanted. The second loop fills it, the first does not. */
+/* A contact law: of one pair, and of all pairs [0, list->padded) at once with the same bits. `lost` is the energy taken
+   in the step by the caps of sliding, rolling and moment, and a part of it (negative) that is to be taken off what the
+   dashpots get when they are credited with their force times the whole rate [J/m]; NULL: not wanted. The second loop
+   fills it, the first does not. */
+enum { PG_LOST = 4 };
 typedef void PgContactLoop(const PgContactParameters *parameters, const PgContactList *list, const PgDemDiscs *discs,
                            PetscReal dt, const PgDemPairs *pairs);
 typedef struct {
@@ -154,7 +157,8 @@ static inline PetscReal PgLi2007Clamp(PetscReal value, PetscReal cap)
    what stands with the viscous part exactly at the cap. Nothing is left without contact. */
 static inline __attribute__((always_inline)) PetscReal PgLi2007Friction(PetscReal k, PetscReal c, PetscReal rate,
                                                                         PetscReal dt, PetscReal cap, PetscReal overlap,
-                                                                        PetscReal *elastic, PetscReal *lost)
+                                                                        PetscReal *elastic, PetscReal lost[],
+                                                                        PetscInt which)
 {
   const PetscReal before  = *elastic;
   const PetscReal trial   = before - k * (rate * dt);
@@ -165,8 +169,13 @@ static inline __attribute__((always_inline)) PetscReal PgLi2007Friction(PetscRea
   const PetscReal stores  = k > 0 ? 1 : 0; /* nothing is left in a spring that is not there */
   const PetscReal after   = overlap > 0 ? stores * kept : 0;
 
-  /* mean force times slip (trial - after)/k; without spring all three are 0 */
-  if (lost) *lost = 0.5 * (before + after) * (trial - after) / (k + PG_SMALLEST);
+  if (lost) { /* force times slip (trial - after)/k; without spring there is no telling slip from dashpot */
+    const PetscReal slip = overlap > 0 ? (trial - after) / (k + PG_SMALLEST) : 0;
+    const PetscReal open = overlap > 0 ? 0 : 0.5 * before * trial / (k + PG_SMALLEST); /* the spring is let go */
+
+    lost[which] = (0.5 * (before + after) + viscous) * slip + open;
+    lost[3] -= viscous * slip; /* the dashpot did not slip */
+  }
   *elastic = after;
   return overlap > 0 ? capped : 0;
 }
@@ -182,10 +191,10 @@ PgLi2007(const PgContactParameters *p, const PgContactMotion *m, PetscReal dt, P
 
   f.F_N = u > 0 ? clipped : 0; /* Eq. 9 */
   N     = -f.F_N;
-  F_s   = PgLi2007Friction(p->k_s, p->c_s, m->sliding_rate, dt, p->mu_s * N, u, &h->f_s, lost ? &lost[0] : NULL);
-  F_r   = PgLi2007Friction(p->k_r, p->c_r, m->rolling_rate, dt, p->mu_r * N, u, &h->f_r, lost ? &lost[1] : NULL);
-  f.M_r = PgLi2007Friction(p->k_theta, p->c_theta, m->spin_rate, dt, p->mu_theta_r * N, u, &h->m_r,
-                           lost ? &lost[2] : NULL);
+  if (lost) lost[3] = 0;
+  F_s   = PgLi2007Friction(p->k_s, p->c_s, m->sliding_rate, dt, p->mu_s * N, u, &h->f_s, lost, 0);
+  F_r   = PgLi2007Friction(p->k_r, p->c_r, m->rolling_rate, dt, p->mu_r * N, u, &h->f_r, lost, 1);
+  f.M_r = PgLi2007Friction(p->k_theta, p->c_theta, m->spin_rate, dt, p->mu_theta_r * N, u, &h->m_r, lost, 2);
   f.F_T = PgLi2007Clamp(F_s + F_r, p->mu_s * N); /* Eqs. 11, 16, 17 */
   return f;
 }

@@ -206,15 +206,15 @@ static void BookDisc(PgDem dem, const Books *b, PetscInt i, PetscReal h)
   account[GRAVITY] += h * b->m[i] * (dem->gravity[0] * v[0] + dem->gravity[1] * v[1]);
 }
 
-/* What the caps took in the step that ends here. */
+/* What the caps took in the step that ends here; DASHPOTS comes right after the three of them. */
 static void BookCaps(PgDem dem, const Books *b)
 {
   for (PetscInt i = 0; i < b->owned; i++)
     for (PetscInt k = b->list.ptr[i]; k < b->list.ptr[i + 1]; k++)
-      for (PetscInt c = 0; c < 3; c++)
-        b->account[ACCOUNTS * i + SLIDING + c] += 0.5 * dem->pairs.lost[3 * (b->list.sum[k] >> 1) + c];
+      for (PetscInt c = 0; c < PG_LOST; c++)
+        b->account[ACCOUNTS * i + SLIDING + c] += 0.5 * dem->pairs.lost[PG_LOST * (b->list.sum[k] >> 1) + c];
   for (PetscInt k = 0; k < dem->wall_contact_count; k++)
-    for (PetscInt c = 0; c < 3; c++)
+    for (PetscInt c = 0; c < PG_LOST; c++)
       b->account[ACCOUNTS * dem->wall_contact[k].disc + SLIDING + c] += dem->wall_contact[k].lost[c];
 }
 
@@ -241,8 +241,8 @@ PetscErrorCode PgDemBookWork_Private(PgDem dem, PetscReal h, PetscBool arrival)
   PetscFunctionBeginUser;
   PetscCall(GetBooks(dem, &b));
   if (arrival) BookStart(dem, &b);
-  if (arrival) BookCaps(dem, &b);
   if (h == 0) PetscFunctionReturn(0);
+  if (arrival) BookCaps(dem, &b);
   if (p->c_n > 0 || p->c_s > 0 || p->c_r > 0 || p->c_theta > 0 || p->k_r > 0) {
     PetscCall(PgDemComputePairs_Private(dem, &b.list, &b.discs));
     for (PetscInt i = 0; i < b.owned; i++) BookPairs(dem, &b, i, h);

@@ -68,7 +68,7 @@ static PetscErrorCode GrowPairs(PgDem dem, PetscInt padded)
   PetscCall(PetscFree4(p->f_s, p->f_r, p->m_r, p->result));
   PetscCall(PetscMalloc4(room, &p->f_s, room, &p->f_r, room, &p->m_r, 4 * room, &p->result));
   PetscCall(PetscFree(p->lost));
-  if (dem->energy) PetscCall(PetscMalloc1(3 * room, &p->lost));
+  if (dem->energy) PetscCall(PetscMalloc1(PG_LOST * room, &p->lost));
   dem->pair_room = room;
   PetscFunctionReturn(0);
 }

@@ -13,7 +13,7 @@ static PetscReal RowHeight(void) { return SQRT3 * r; }
    thousand steps. The damping of all motion has no part in rest; it is about critical for the slowest wave, 550/s, with that of the drag. */
 #define SOFT                                                                                                           \
   " -dem_k_n 6e6 -dem_k_s 4e6 -dem_k_r 20 -dem_k_theta 7 -dem_local_damping 0 -dem_global_damping 500 -dt 2e-5 "       \
-  "-fluid_every 1 -sph_gradient corrected -sph_laplacian_eta 0.01 "
+  "-sph_gradient corrected -sph_laplacian_eta 0.01 "
 
 static const char *const fluids[] = {"darcy", "ns"};
 
@@ -43,7 +43,7 @@ static void Hydrostatic(void **state)
 
   (void)state;
   for (int fluid = 0; fluid < 2; fluid++) {
-    WaterStart(&w, COLUMNS, ROWS, "-case column_hydrostatic -fluid %s" SOFT WATER_SOLVER, fluids[fluid]);
+    WaterStart(&w, COLUMNS, ROWS, "-case column_hydrostatic -fluid_every 4 -fluid %s" SOFT WATER_SOLVER, fluids[fluid]);
     WaterRun(&w, 0.08);
     WaterRows(&w, "pressure", 1, 0, p, &spread);
     WaterRows(&w, "position", 2, 1, y, NULL);
@@ -84,7 +84,8 @@ static PetscReal Seepage(const char fluid[], const char options[], PetscReal gra
   PetscReal       stress[MOST_ROWS], y[MOST_ROWS], load;
   Water           w;
 
-  WaterStart(&w, COLUMNS, ROWS, "-case column_seepage -fluid %s" SOFT WATER_SOLVER " -column_gradient %.15g %s", fluid,
+  WaterStart(&w, COLUMNS, ROWS,
+             "-case column_seepage -fluid_every 2 -fluid %s" SOFT WATER_SOLVER " -column_gradient %.15g %s", fluid,
              (double)gradient, options);
   WaterRun(&w, 0.05);
   load = Load(&w, NULL) / (unit * (ROWS - 1));
@@ -111,23 +112,28 @@ static void UpwardSeepage(void **state)
 {
   const PetscReal i_c = (1.0 - TOUCHING_POROSITY) * (rho_s / rho_f - 1.0);
   PetscReal       load, deviation, rise, at[2];
+  PetscMPIInt     ranks;
   char            name[96];
 
   (void)state;
+  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
   for (int fluid = 0; fluid < 2; fluid++) {
     for (int k = 0; k < 2; k++) {
       const PetscReal gradient = k ? 0.8 : 0.3;
       load                     = Seepage(fluids[fluid], CORRECTED, gradient, &deviation, &rise);
       at[k]                    = load;
       (void)snprintf(name, sizeof name, "load over that at rest, i = %g, %s", (double)gradient, fluids[fluid]);
-      VerifyValue("column_seepage", name, 1.0 - gradient / i_c, load, 1.0, 3e-4, "the column shortens by up to 1.5e-4");
+      VerifyValue("column_seepage", name, 1.0 - gradient / i_c, load, 1.0, 5e-4,
+                  "the column shortens by 1.5e-4; steps of the water");
       (void)snprintf(name, sizeof name, "sigma_yy linear in depth, largest deviation, i = %g, %s", (double)gradient,
                      fluids[fluid]);
-      VerifyValue("column_seepage", name, 0.0, deviation, 1.0, 3e-4, "the column shortens by up to 1.5e-4");
+      VerifyValue("column_seepage", name, 0.0, deviation, 1.0, 5e-4,
+                  "the column shortens by 1.5e-4; steps of the water");
     }
     (void)snprintf(name, sizeof name, "i_c, where the line of loads meets zero, %s", fluids[fluid]);
     VerifyValue("column_seepage", name, i_c, 0.3 + 0.5 * at[0] / (at[0] - at[1]), 0.0, 1e-3,
                 "the column shortens by up to 1.5e-4; error of the line twice");
+    if (ranks > 1) continue; /* the rest is the same again */
     /* lifted grains move off by some um: 2 % of the submerged weight against the damping for 0.05 s */
     (void)Seepage(fluids[fluid], CORRECTED, 0.98 * i_c, &deviation, &rise);
     (void)snprintf(name, sizeof name, "rise of the top row at 0.98 i_c [m], no more than 0, %s", fluids[fluid]);
