@@ -2,6 +2,7 @@
    failed. Everything is compared with what the run expects before memory is asked for or values are used. */
 #include "checkpointimpl.h"
 #include <math.h>
+#include <stdlib.h>
 
 /* ---- opening ---- */
 
@@ -248,10 +249,20 @@ static PetscErrorCode ReadForAll(PgCheckpoint c, const char path[], hid_t type, 
 
 /* ---- state ---- */
 
+/* With the fewest digits that read back as the same number. */
+static const char *Digits(PetscReal value, char text[32])
+{
+  for (int digits = 6; digits <= 17; digits++) {
+    (void)snprintf(text, 32, "%.*g", digits, (double)value);
+    if (strtod(text, NULL) == (double)value) break;
+  }
+  return text;
+}
+
 /* The value of a MATCHing item must be the one that is there. */
 static void CheckMatch(PgHdf *hdf, const PgStateItem *item, const void *found)
 {
-  char      reason[1024] = "";
+  char      reason[1024] = "", is[32], now[32];
   const int length       = (int)sizeof reason;
 
   if (hdf->failed) return;
@@ -264,8 +275,8 @@ static void CheckMatch(PgHdf *hdf, const PgStateItem *item, const void *found)
   case PG_STATE_REALS:
     for (PetscInt k = 0; k < item->count && !reason[0]; k++)
       if (((const PetscReal *)found)[k] != ((const PetscReal *)item->value)[k])
-        (void)snprintf(reason, (size_t)length, "%s is %.17g in the checkpoint and %.17g now", item->meaning,
-                       (double)((const PetscReal *)found)[k], (double)((const PetscReal *)item->value)[k]);
+        (void)snprintf(reason, (size_t)length, "%s is %s in the checkpoint and %s now", item->meaning,
+                       Digits(((const PetscReal *)found)[k], is), Digits(((const PetscReal *)item->value)[k], now));
     break;
   case PG_STATE_INTS:
     for (PetscInt k = 0; k < item->count && !reason[0]; k++)

@@ -146,6 +146,9 @@ static PetscErrorCode HdfDataset(PgPackingSink *sink, int set)
 
 static PetscErrorCode HdfStart(PgPackingSink *sink)
 {
+  /* HDF5 does not survive a disk that is full: the room is asked for before. Values, and tables without end. */
+  const off_t     values  = (off_t)sink->packing->global * PG_PACKING_VALUES * (off_t)sizeof(PetscReal);
+  const char     *no_room = PgWhyNoRoomForNew(sink->part, values + values / 50 + 65536);
   PgHdf          *hdf     = &sink->hdf;
   const hsize_t   two     = 2;
   const PetscReal ends[2] = {sink->packing->low, sink->packing->high};
@@ -153,6 +156,10 @@ static PetscErrorCode HdfStart(PgPackingSink *sink)
 
   PetscFunctionBeginUser;
   PetscCall(PetscMalloc1(2 * PG_PACKING_PIECE, &sink->piece));
+  if (no_room) {
+    SinkFail(sink, no_room);
+    PetscFunctionReturn(0);
+  }
   HdfOpen(sink);
   PetscCall(PgHdfText(hdf, "/", "format", "porograin packing"));
   PetscCall(PgHdfText(hdf, "/", "program_version", PG_VERSION));
@@ -204,11 +211,11 @@ static PetscErrorCode HdfFinish(PgPackingSink *sink)
   PgHdf *hdf = &sink->hdf;
 
   PetscFunctionBeginUser;
+  PetscCall(PetscFree(sink->piece));
+  if (!hdf->file) PetscFunctionReturn(0); /* not begun, for want of room */
   if (hdf->id >= 0) PgHdfWatch(hdf, "close the file", "", H5Fclose(hdf->id));
-  hdf->id = H5I_INVALID_HID;
   (void)H5Eset_auto2(H5E_DEFAULT, hdf->print, hdf->print_context);
   if (hdf->failed) SinkFail(sink, hdf->trouble);
-  PetscCall(PetscFree(sink->piece));
   PetscFunctionReturn(0);
 }
 
@@ -249,6 +256,24 @@ PetscErrorCode PgPackingCheckPlace(MPI_Comm comm, const char file[])
       PgFileCheck(comm, PETSC_ERR_USER_INPUT, "cannot write packing", file, rank ? NULL : PgWhyNotWritable(file)));
   PetscCall(
       PgFileCheck(comm, PETSC_ERR_USER_INPUT, "cannot write packing", part, rank ? NULL : PgWhyNotWritable(part)));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPackingCheckOutput(MPI_Comm comm, const char file[])
+{
+  char         output[PETSC_MAX_PATH_LEN] = "";
+  const size_t length                     = strlen(file);
+  size_t       base;
+  PetscBool    clash;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-output", output, sizeof output, NULL));
+  base  = strlen(output);
+  base  = base > 3 ? base - 3 : 0; /* without .h5 */
+  clash = (PetscBool)(base && !strncmp(file, output, base) &&
+                      ((length == base + 3 && IsHdfName(file)) || (length == base + 4 && IsCsvName(file))));
+  PgInputCheck(!clash, comm, "packing '%s': -output %s writes a file of this name; choose another name for one of them",
+               file, output);
   PetscFunctionReturn(0);
 }
 
@@ -364,6 +389,7 @@ PetscErrorCode PgPackingExport(MPI_Comm comm, PgParticles particles)
   PetscCall(PgOptionString(PetscOptionsObject, "-packing_export",
                            "writes the discs at the start of the run to FILE.csv or FILE.h5", file, sizeof file, NULL));
   PetscOptionsEnd();
+  if (file[0]) PetscCall(PgPackingCheckOutput(comm, file));
   if (file[0]) PetscCall(PgPackingCheckPlace(comm, file));
   if (!file[0] || !particles) PetscFunctionReturn(0);
   PetscCall(PgPackingFromParticles(particles, &packing));

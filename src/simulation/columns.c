@@ -118,7 +118,7 @@ PetscErrorCode PgColumnsFill(PgSimulation sim)
 
     PetscCall(PgDemGetWall(sim->dem, k, &w));
     PetscCall(PgDemGetWallForce(sim->dem, k, f));
-    row[0] = -(f[0] * w.normal[0] + f[1] * w.normal[1]);
+    row[0] = 0 - (f[0] * w.normal[0] + f[1] * w.normal[1]);
     row[1] = f[0] * w.normal[1] - f[1] * w.normal[0];
     PetscCall(PgDemGetWallDisplacement(sim->dem, k, &row[2]));
     if (k != sim->setup.load_wall) continue;

@@ -131,7 +131,11 @@ PetscErrorCode PgMonitorStart(PgSimulation sim)
   PetscFunctionBeginUser;
   sim->started = sim->last_progress = MPI_Wtime();
   sim->last_progress_step           = sim->step;
-  if (sim->restart_file[0]) PetscFunctionReturn(0); /* what belongs to this step was written before */
+  if (sim->restart_file[0]) {
+    PetscCall(PetscPrintf(sim->comm, "continued from %s, step %" PetscInt_FMT ", t = %.6e s\n", sim->restart_file,
+                          sim->step * sim->fluid_every, (double)sim->time));
+    PetscFunctionReturn(0); /* what belongs to this step was written before */
+  }
   PetscCall(PgMonitorFillRow(sim));
   if (sim->output) PetscCall(PgOutputHistory(sim->output, sim->row));
   if (sim->output_every) PetscCall(PgMonitorSnapshot(sim, sim->output));

@@ -1,0 +1,55 @@
+# timeout: 120
+# processors: 2
+# Whole runs with packings: a panel that went through a file moves like the panel, chance makes the same file on any
+# number of ranks, and what was generated can be restarted.
+. "$SOURCE_DIR/tests/support/regress.sh"
+
+# The panel of 7 columns by itself, and from the file it wrote, dry: every bit of all snapshots and of the history.
+common='-dem_local_damping 0.7 -end_time 2e-3'
+# shellcheck disable=SC2086
+for ending in csv h5; do
+  "$POROGRAIN" -case panel -panel_columns 7 -panel_rows 15 $common -output panel.h5 -packing_export discs.$ending >panel.out
+  run 2 "$POROGRAIN" -case packing -packing discs.$ending -packing_plates bottom,top -packing_top_velocity -6.18e-2 \
+    $common -output packing.h5 >packing.out
+  expect_same_results panel.h5 packing.h5
+  rm -f panel.h5 packing.h5
+done
+# ... and the load is one: the plates are in the same place.
+expect_match '^peak load [1-9]' packing.out
+
+# 600 discs, on 1, 2 and 4 ranks; then the file by way of HDF5 and back.
+random='-case packing -packing_generate random -packing_count 600 -packing_target_porosity 0.19
+  -packing_radius_spread 0.25 -packing_seed 11 -dt 1e-7'
+# shellcheck disable=SC2086
+for n in 1 2 4; do
+  run "$n" "$POROGRAIN" $random -end_time 1e-7 -packing_export "random$n.csv" >random$n.out
+  cmp random1.csv "random$n.csv" || fail "another packing on $n ranks"
+done
+expect_match 'porosity 0.190000 in the box' random1.out
+# shellcheck disable=SC2086
+"$POROGRAIN" $random -packing_seed 12 -end_time 1e-7 -packing_export other.csv >other.out
+! cmp -s random1.csv other.csv || fail 'another seed makes the same packing'
+run 2 "$POROGRAIN" -case packing -packing random1.csv -dt 1e-7 -end_time 1e-7 -packing_export copy.h5 >copy.out
+run 2 "$POROGRAIN" -case packing -packing copy.h5 -dt 1e-7 -end_time 1e-7 -packing_export copy.csv >copy.out
+cmp random1.csv copy.csv || fail 'the packing has changed on its way through HDF5'
+
+# What the program says of it, from all pairs by awk.
+awk -F, '!/^[#x]/ { x[n] = $1; y[n] = $2; r[n++] = $3 }
+  END { for (i = 0; i < n; i++) for (j = 0; j < i; j++) {
+          d = sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2); o = (r[i] + r[j] - d) / (r[i] < r[j] ? r[i] : r[j])
+          if (!(i == 1 && j == 0) && o <= worst) continue
+          worst = o; a = j; b = i }
+        printf "%.3g %d %d\n", worst < 0 ? -worst : worst, a, b }' random1.csv >worst
+read -r worst a b <worst
+expect_match "(overlap|gap) $worst of the smaller radius, discs $a and $b\$" random1.out
+
+# Interrupted and restarted, with walls: as the run that was not. The packing is not pressed again.
+walls="-packing_walls left,right,bottom,top -packing_top_velocity -0.1"
+# shellcheck disable=SC2086
+{
+  "$POROGRAIN" $random $walls -end_time 4e-5 -output whole.h5 -output_every 2e-5 >whole.out
+  "$POROGRAIN" $random $walls -end_time 2e-5 -output part.h5 -output_every 2e-5 -checkpoint run.checkpoint >part.out
+  "$POROGRAIN" $random $walls -end_time 4e-5 -output part.h5 -output_every 2e-5 -restart run.checkpoint >restart.out
+}
+expect_same_results whole.h5 part.h5 /snapshots/000002
+if grep -q 'pairs touch' restart.out; then fail 'a restart looks at the packing again'; fi

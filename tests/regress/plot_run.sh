@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# timeout: 300
+# porograin-plot on short runs and a study: the files that it promises, and its errors.
+. "$SOURCE_DIR/tests/support/regress.sh"
+
+short=(-panel_columns 10 -panel_rows 21 -panel_displacement 1.236e-4 -output_every 1e-3 -history_every 1e-4)
+"$POROGRAIN" -options_file "$SOURCE_DIR/options/panel_case1_ns.opts" "${short[@]}" -output "wet run's.h5" >wet.log
+"$POROGRAIN" -options_file "$SOURCE_DIR/options/panel_case1_dry.opts" "${short[@]}" -output dry.h5 >dry.log
+mkdir other
+cp dry.h5 other/dry.h5
+wet=wet_run_s # a blank and a quotation mark have no place in the names of figures
+
+# nothing FOLDER: no files, or no such folder, and no working folder left
+nothing() { [ -z "$(ls -A "$1" 2>/dev/null)" ] || fail "files in $1: $(ls -A "$1")"; }
+
+# Scripts and data do not need gnuplot.
+"$POROGRAIN_PLOT" "wet run's.h5" dry.h5 other/dry.h5 -figures scripts -plot_gnuplot none -plot_film pressure >scripts.out
+for f in load $wet-{effective_strain,volumetric_strain,rotation,porosity,pressure,streamlines,relative_speed,fields,history} \
+  $wet-film-pressure dry-{effective_strain,volumetric_strain,rotation,fields,history} dry-2-rotation; do
+  [ -s "scripts/$f.gp" ] || fail "no script $f.gp"
+done
+for f in $wet-{load,history,discs,streamlines,arrows,grid,contours,film-pressure-000000,film-pressure-000002} dry-discs dry-2-load; do
+  [ -s "scripts/$f.dat" ] || fail "no data $f.dat"
+done
+# A dry run has nothing of water; that is said, and there is no empty figure of it.
+expect_match 'note: dry.h5 has no data for these pictures: porosity, pressure, streamlines, relative_speed' scripts.out
+! ls scripts | grep -Eq '^dry-(porosity|pressure|streamlines|relative_speed|film)' || fail 'figures of water in a dry run'
+[ "$(ls -A scripts | grep -c '^\.')" -eq 0 ] || fail 'the working folder was left'
+grep -q "title 'wet run''s'" scripts/load.gp || fail 'the name in the legend'
+# What the figures show is what is in the file: peak of the load [kN/m], number of discs, time in the title.
+expect_close "$(awk '!/^#/ && $2 > m { m = $2 } END { print m }' "scripts/$wet-load.dat")" \
+  "$(csv_column "wet run's.csv" load | awk '$1 / 1000 > m { m = $1 / 1000 } END { print m }')" 1e-3
+[ "$(grep -vc '^#' "scripts/$wet-discs.dat")" -eq 199 ] || fail 'number of discs'
+expect_match 't = 0.002 s, displacement 0.124 mm' "scripts/$wet-pressure.gp" # 2e-3 s at 0.0618 m/s
+# Signed fields have colours symmetric about 0.
+range=$(sed -n 's/^set cbrange \[\(.*\)\]$/\1/p' "scripts/$wet-rotation.gp")
+expect_close "${range%:*}" "-${range#*:}" 0
+
+# Another time: the snapshot nearest to it.
+"$POROGRAIN_PLOT" "wet run's.h5" -figures early -plot_time 1.2e-3 -plot_fields pressure -plot_gnuplot none >early.out
+expect_match 't = 0.001 s' "early/$wet-pressure.gp"
+[ ! -e "early/$wet-rotation.gp" ] || fail '-plot_fields draws more than asked'
+
+# A study.
+"$POROGRAIN_STUDY" -study_sizes 200,1249 -study_solvers "$SOURCE_DIR/options/solvers/all.txt" -study_only cg-jacobi,cg-gamg \
+  -study_repeats 1 -study_output study >study.log
+"$POROGRAIN_PLOT" study.h5 -figures scripts -plot_gnuplot none >study.out
+growth=$(csv_column study.csv growth | tail -n 1)
+expect_match "cg-gamg  N\^$(printf '%.2f' "$growth")'" scripts/study-growth.gp
+for f in study-residuals-1 study-residuals-2; do [ -s "scripts/$f.gp" ] || fail "no $f.gp"; done
+
+# Errors: message and status, and nothing half-written.
+expect_error 2 "no file to plot" "$POROGRAIN_PLOT" -figures none
+expect_error 4 "result file 'missing.h5': " "$POROGRAIN_PLOT" missing.h5 -figures none
+expect_error 4 "result file 'wet.log': " "$POROGRAIN_PLOT" wet.log -figures none
+head -c 100000 dry.h5 >cut.h5
+expect_error 4 "result file 'cut.h5': .*truncated" "$POROGRAIN_PLOT" dry.h5 cut.h5 -figures none
+expect_error 2 "option -plot_time: 5 s is out of range, the snapshots of dry.h5 are from 0 to 0.002 s" \
+  "$POROGRAIN_PLOT" dry.h5 -figures none -plot_time 5
+expect_error 2 "field pressure: the file has no dataset pressure" \
+  "$POROGRAIN_PLOT" dry.h5 -figures none -plot_fields rotation,pressure
+expect_error 2 "no field 'presure'; there are effective_strain, " "$POROGRAIN_PLOT" dry.h5 -figures none -plot_fields presure
+expect_error 2 "no format 'gif'; there are png, svg" "$POROGRAIN_PLOT" dry.h5 -figures none -plot_format gif
+expect_error 2 "streamlines is not drawn as discs" "$POROGRAIN_PLOT" "wet run's.h5" -figures none -plot_film streamlines
+expect_error 2 "-plot_tme.*-plot_time" "$POROGRAIN_PLOT" dry.h5 -figures none -plot_tme 1
+expect_error 2 "directory 'dry.h5': it is there, and not a directory" "$POROGRAIN_PLOT" dry.h5 -figures dry.h5
+expect_error 2 "directory 'no/such': cannot make it: No such file or directory" "$POROGRAIN_PLOT" dry.h5 -figures no/such
+nothing none
+# A program that fails: the figures there were before stay as they are.
+printf '#!/bin/sh\necho trouble >&2\nexit 3\n' >failing
+chmod +x failing
+mkdir kept
+echo before >kept/load.gp
+expect_error 4 "failing failed on load.gp \(status 3\)" "$POROGRAIN_PLOT" dry.h5 -figures kept -plot_gnuplot ./failing
+[ "$(ls -A kept)" = load.gp ] && [ "$(cat kept/load.gp)" = before ] || fail 'a failure changed what was there'
+expect_error 4 "failing failed on" "$POROGRAIN_PLOT" dry.h5 -figures none -plot_gnuplot ./failing
+nothing none
+# No such program: scripts, with a note.
+"$POROGRAIN_PLOT" dry.h5 -figures without -plot_gnuplot no-such-gnuplot >without.out
+expect_match "note: no program 'no-such-gnuplot'" without.out
+[ -s without/load.gp ] || fail 'no scripts without gnuplot'
+
+# With gnuplot: pictures in both formats.
+if ! command -v gnuplot >/dev/null; then
+  echo 'gnuplot is not installed: pictures are not tested'
+  exit 0
+fi
+"$POROGRAIN_PLOT" "wet run's.h5" dry.h5 study.h5 -figures pictures -plot_film pressure -plot_size 0.6 >pictures.out 2>pictures.err
+[ ! -s pictures.err ] || fail "gnuplot complains: $(head -n 3 pictures.err)"
+for f in load $wet-{effective_strain,volumetric_strain,rotation,porosity,pressure,streamlines,relative_speed,fields,history} \
+  dry-{rotation,fields,history} study-growth study-residuals-2; do
+  [ "$(head -c 8 "pictures/$f.png" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$f.png is not a PNG file"
+  [ "$(tail -c 8 "pictures/$f.png" | od -An -c | tr -d ' \n')" = 'IEND256B`202' ] || fail "$f.png has no end"
+  head -c 300 "pictures/$f.svg" | grep -q '<svg' || fail "$f.svg is not an SVG file"
+  tail -n 3 "pictures/$f.svg" | grep -q '</svg>' || fail "$f.svg has no end"
+done
+[ "$(ls pictures | grep -c "^$wet-film-pressure-00000[012].png\$")" -eq 3 ] || fail 'frames of the film'
+# Run again by hand, the scripts draw the same.
+cp pictures/load.png before.png
+(cd pictures && gnuplot load.gp)
+cmp -s before.png pictures/load.png || fail 'load.gp draws another picture by hand'
