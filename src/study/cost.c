@@ -43,8 +43,9 @@ static const PgTableColumn columns[COLUMNS] = {
 };
 
 typedef struct {
-  char     name[32];
-  PetscInt sweeps, every; /* sweeps 0: implicit */
+  char      name[32];
+  PetscInt  sweeps, every; /* sweeps 0: implicit */
+  PetscReal rtol;          /* implicit; 0: as the options say */
 } Variant;
 
 typedef struct {
@@ -56,6 +57,31 @@ typedef struct {
   char       remark[96];
 } Outcome;
 
+/* One word of the list: implicit:M, implicitRTOL:M or explicitK:M. */
+static PetscBool ParseOne(char *word, Variant *v)
+{
+  char           *colon = strchr(word, ':'), *end = NULL;
+  const PetscBool implicit = (PetscBool)!strncmp(word, "implicit", 8),
+                  sweeps   = (PetscBool)!strncmp(word, "explicit", 8);
+  long every;
+
+  if (!colon || !(implicit || sweeps)) return PETSC_FALSE;
+  every  = strtol(colon + 1, &end, 10);
+  *colon = '\0';
+  if (end == colon + 1 || *end || every < 1 || every > 1000000) return PETSC_FALSE;
+  (void)PetscStrncpy(v->name, word, sizeof v->name);
+  v->every  = (PetscInt)every;
+  v->sweeps = 0;
+  v->rtol   = 0.0;
+  if (implicit && !word[8]) return PETSC_TRUE;
+  if (implicit)
+    v->rtol = (PetscReal)strtod(word + 8, &end);
+  else
+    v->sweeps = (PetscInt)strtol(word + 8, &end, 10);
+  if (end == word + 8 || *end) return PETSC_FALSE;
+  return (PetscBool)(implicit ? v->rtol > 0.0 && v->rtol < 1.0 : v->sweeps > 0);
+}
+
 static PetscErrorCode Parse(PgStudy study, PetscInt most, Variant v[], PetscInt *count)
 {
   char **word;
@@ -65,25 +91,9 @@ static PetscErrorCode Parse(PgStudy study, PetscInt most, Variant v[], PetscInt 
   PetscCall(PetscStrToArray(study->variants, ',', &words, &word));
   PgInputCheck(words > 0 && words <= most, study->comm, "option -study_variants: between 1 and %" PetscInt_FMT " runs",
                most);
-  for (int i = 0; i < words; i++) {
-    char *colon = strchr(word[i], ':'), *end = NULL;
-    long  every = colon ? strtol(colon + 1, &end, 10) : 0, sweeps = 0;
-
-    PgInputCheck(colon && end != colon + 1 && !*end && every > 0 && every <= 1000000, study->comm,
-                 "option -study_variants: '%s' is not like implicit:10 or explicit5:1", word[i]);
-    *colon = '\0';
-    if (strcmp(word[i], "implicit")) {
-      PetscBool is = PETSC_FALSE;
-      PetscCall(PetscStrbeginswith(word[i], "explicit", &is));
-      end = NULL;
-      if (is) sweeps = strtol(word[i] + strlen("explicit"), &end, 10);
-      PgInputCheck(is && end && !*end && sweeps > 0, study->comm,
-                   "option -study_variants: '%s' is neither implicit nor explicit with a number of sweeps", word[i]);
-    }
-    PetscCall(PetscStrncpy(v[i].name, word[i], sizeof v[i].name));
-    v[i].sweeps = (PetscInt)sweeps;
-    v[i].every  = (PetscInt)every;
-  }
+  for (int i = 0; i < words; i++)
+    PgInputCheck(ParseOne(word[i], &v[i]), study->comm,
+                 "option -study_variants: '%s' is not like implicit:10, implicit1e-4:10 or explicit5:1", word[i]);
   PetscCall(PetscStrToArrayDestroy(words, word));
   *count = words;
   PetscFunctionReturn(0);
@@ -111,6 +121,8 @@ static PetscErrorCode Start(PgStudy study, const Variant *v, PgOverride *o, PgSi
   PetscCall(PgOverrideSet(o, "-pressure_sweeps", number));
   PetscCall(PetscSNPrintf(number, sizeof number, "%" PetscInt_FMT, v->every));
   PetscCall(PgOverrideSet(o, "-fluid_every", number));
+  PetscCall(PetscSNPrintf(number, sizeof number, "%.17g", (double)v->rtol));
+  if (v->rtol > 0.0) PetscCall(PgOverrideSet(o, "-pressure_ksp_rtol", number));
   PetscCall(PgOverrideRemove(o, "-output"));
   PetscCall(PgSimulationCreate(study->comm, sim));
   PetscCall(PgSimulationSetFromOptions(*sim));

@@ -39,10 +39,11 @@ static PetscErrorCode Options(PgStudy study, PetscOptionItems *PetscOptionsObjec
                          &study->stretch, NULL));
   PetscCall(PgOptionInt(PetscOptionsObject, "-study_samples", "loads compared in that time", 2, 100000, &study->samples,
                         NULL));
-  PetscCall(PgOptionString(PetscOptionsObject, "-study_variants",
-                           "runs to compare, the first is the reference: implicit:M or explicitK:M, with K sweeps and "
-                           "M steps of the discs in one of the water",
-                           study->variants, sizeof study->variants, NULL));
+  PetscCall(PgOptionString(
+      PetscOptionsObject, "-study_variants",
+      "runs to compare, the first is the reference: implicit:M, implicitR:M or explicitK:M, with relative "
+      "tolerance R, K sweeps, and M steps of the discs in one of the water",
+      study->variants, sizeof study->variants, NULL));
   PetscFunctionReturn(0);
 }
 

@@ -45,7 +45,8 @@ static PetscErrorCode Split(char *line, PetscInt most, char *word[], PetscInt *c
   PetscFunctionBeginUser;
   line[strcspn(line, "#\r")] = '\0';
   *count                     = 0;
-  for (char *w = strtok(line, " \t"); w && *count < most; w = strtok(NULL, " \t")) word[(*count)++] = w;
+  for (char *rest = NULL, *w = strtok_r(line, " \t", &rest); w && *count < most; w = strtok_r(NULL, " \t", &rest))
+    word[(*count)++] = w;
   PetscFunctionReturn(0);
 }
 

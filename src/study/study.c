@@ -32,8 +32,9 @@ PetscErrorCode PgStudyCreate(MPI_Comm comm, PgStudy *study)
   s->windows              = 4;
   PetscCall(PetscStrncpy(s->solver_file, "options/solvers/all.txt", sizeof s->solver_file));
   PetscCall(PetscStrncpy(s->variants,
-                         "implicit:1,implicit:10,implicit:50,explicit1:1,explicit1:10,explicit1:50,explicit10:1,"
-                         "explicit10:10,explicit10:50,explicit100:10,explicit100:50",
+                         "implicit:1,implicit1e-5:1,implicit1e-2:1,implicit:10,implicit1e-2:10,implicit:50,explicit1:1,"
+                         "explicit1:10,explicit1:50,explicit10:1,explicit10:10,explicit10:50,explicit100:10,"
+                         "explicit100:50",
                          sizeof s->variants));
   *study = s;
   PetscFunctionReturn(0);

@@ -109,9 +109,10 @@ void PgTableReal(PgTable t, PetscInt column, PetscReal value) { t->cell[column].
 void PgTableText(PgTable t, PetscInt column, const char format[], ...)
 {
   va_list arguments;
+  size_t  length;
 
   va_start(arguments, format);
-  (void)vsnprintf(t->cell[column].text, sizeof t->cell[column].text, format, arguments);
+  (void)PetscVSNPrintf(t->cell[column].text, sizeof t->cell[column].text, format, &length, arguments);
   va_end(arguments);
 }
 
