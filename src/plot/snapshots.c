@@ -1,0 +1,390 @@
+/* The fields of a snapshot, each in a picture of its own and all on one sheet, and films. */
+#include "plotimpl.h"
+
+/* What the pictures of a snapshot share. */
+typedef struct {
+  PgPlot              plot;
+  const PgPlotSource *source;
+  PetscInt            snapshot, fields;
+  const PgPlotField  *field[PG_PLOT_FIELDS]; /* those that are there */
+  PetscReal          *value[PG_PLOT_FIELDS];
+  PetscInt            column[PG_PLOT_FIELDS], colours[PG_PLOT_FIELDS];
+  PgPlotRange         range[PG_PLOT_FIELDS];
+  PgPlotDiscs         discs;
+  char                base[200], when[160];
+} Sheet;
+
+static PetscErrorCode When(const PgPlotSource *source, PetscReal time, char text[], size_t size)
+{
+  PetscReal displacement;
+  PetscBool known;
+  size_t    n;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscSNPrintf(text, size, "t = %.4g s", (double)time));
+  PetscCall(PgPlotDisplacement(source, time, &displacement, &known));
+  n = strlen(text);
+  if (known) PetscCall(PetscSNPrintf(text + n, size - n, ", displacement %.3g mm", 1e3 * (double)displacement));
+  PetscFunctionReturn(0);
+}
+
+/* x, y, r, and a column for each field that is drawn as discs. */
+static PetscErrorCode WriteDiscs(Sheet *s)
+{
+  char  name[300];
+  FILE *file;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscSNPrintf(name, sizeof name, "%s-discs.dat", s->base));
+  PetscCall(PgPlotFolderCreateFile(&s->plot->folder, name, &file));
+  (void)fprintf(file, "# %s\n# x [mm]  y [mm]  radius [mm]", s->when);
+  for (PetscInt f = 0, column = 3; f < s->fields; f++) {
+    s->column[f] = s->field[f]->drawing == PG_PLOT_DISCS ? ++column : 0;
+    if (s->column[f]) (void)fprintf(file, "  %s [%s]", s->field[f]->name, s->field[f]->unit);
+  }
+  (void)fputc('\n', file);
+  for (PetscInt i = 0; i < s->discs.count; i++) {
+    (void)fprintf(file, "%.6g %.6g %.5g", (double)s->discs.x[i], (double)s->discs.y[i], (double)s->discs.r[i]);
+    for (PetscInt f = 0; f < s->fields; f++)
+      if (s->column[f]) (void)fprintf(file, " %.5g", (double)s->value[f][i]);
+    (void)fputc('\n', file);
+  }
+  PetscCall(PgPlotFolderCloseFile(&s->plot->folder, name, &file));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode WriteFlow(Sheet *s, PetscInt f)
+{
+  const PgPlotField *field = s->field[f];
+  PetscReal         *w;
+  PetscInt           n = s->discs.count;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPlotSourceSnapshot(s->source, s->snapshot, field->dataset, 2, &n, &w));
+  for (PetscInt i = 0; i < 2 * n; i++) w[i] *= field->scale;
+  if (field->drawing == PG_PLOT_STREAMLINES)
+    PetscCall(PgPlotStreamlinesWrite(s->plot, s->base, &s->discs, w));
+  else
+    PetscCall(PgPlotContoursWrite(s->plot, s->base, &s->discs, w, &s->range[f], &s->colours[f]));
+  PetscCall(PetscFree(w));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SheetCreate(PgPlot plot, const PgPlotSource *source, Sheet *s)
+{
+  char missing[512] = "";
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMemzero(s, sizeof *s));
+  s->plot     = plot;
+  s->source   = source;
+  s->snapshot = source->chosen;
+  PetscCall(PetscStrncpy(s->base, source->stem, sizeof s->base));
+  PetscCall(When(source, source->time[s->snapshot], s->when, sizeof s->when));
+  PetscCall(PgPlotDiscsRead(source, s->snapshot, &s->discs));
+  for (PetscInt f = 0; f < plot->fields; f++) {
+    PetscBool there;
+    PetscCall(PgPlotFieldIsThere(source, s->snapshot, plot->field[f], &there));
+    if (!there) {
+      PetscCall(PetscStrlcat(missing, missing[0] ? ", " : "", sizeof missing));
+      PetscCall(PetscStrlcat(missing, plot->field[f]->name, sizeof missing));
+      continue;
+    }
+    s->field[s->fields] = plot->field[f];
+    if (plot->field[f]->drawing == PG_PLOT_DISCS)
+      PetscCall(PgPlotFieldRead(source, s->snapshot, plot->field[f], s->discs.count, &s->value[s->fields]));
+    s->fields++;
+  }
+  if (missing[0])
+    PetscCall(PetscPrintf(plot->comm, "note: %s has no data for these pictures: %s\n", source->file, missing));
+  if (s->discs.outside)
+    PetscCall(PetscPrintf(plot->comm,
+                          "note: %s: %" PetscInt_FMT " discs that have burst off lie outside of the pictures\n",
+                          source->file, s->discs.outside));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SheetDestroy(Sheet *s)
+{
+  PetscFunctionBeginUser;
+  for (PetscInt f = 0; f < s->fields; f++) PetscCall(PetscFree(s->value[f]));
+  PetscCall(PgPlotDiscsDestroy(&s->discs));
+  PetscFunctionReturn(0);
+}
+
+#define MARGIN 0.02
+enum { MOST_SVG = 50000 }; /* discs: more would make a hundred megabytes */
+
+/* Axes in mm, the same scale on both, `low` to `high` and a margin. */
+static void Axes(FILE *f, const PetscReal low[2], const PetscReal high[2])
+{
+  const PetscReal margin = MARGIN * PetscMax(high[0] - low[0], high[1] - low[1]);
+  const PetscReal tics   = PgPlotRound(PetscMax(high[0] - low[0], high[1] - low[1]) / 5.0);
+
+  (void)fprintf(f,
+                "set size ratio -1\nset xrange [%.5g:%.5g]\nset yrange [%.5g:%.5g]\nset tics out nomirror\n"
+                "set xtics %.3g\nset ytics %.3g\nset border 3 lc rgb '#666666'\n",
+                (double)(low[0] - margin), (double)(high[0] + margin), (double)(low[1] - margin),
+                (double)(high[1] + margin), (double)tics, (double)tics);
+}
+
+static const char *Unit(const PgPlotField *field) { return strcmp(field->unit, "1") ? field->unit : "–"; }
+
+/* Discs coloured by a column. Where a colour is white, few discs get an outline. */
+static void DrawDiscs(FILE *f, const char data[], PetscInt column, PetscInt discs, PetscBool is_signed)
+{
+  (void)fprintf(f, "plot %s using 1:2:3:%d with circles lc palette fs solid 1.0 %s notitle\n", data, (int)column,
+                is_signed && discs <= 20000 ? "border lc rgb '#b4b4b4'" : "noborder");
+}
+
+static PetscErrorCode DrawField(PgScript *script, const Sheet *s, PetscInt f)
+{
+  const PgPlotField *field = s->field[f];
+  const PgPlotRange *range = &s->range[f];
+  FILE              *file  = script->file;
+  char               data[256];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscSNPrintf(data, sizeof data, "'%s-discs.dat'", s->base));
+  if (field->drawing == PG_PLOT_STREAMLINES) {
+    (void)fprintf(file, "unset colorbox\n");
+    (void)fprintf(
+        file,
+        "plot %s using 1:2:3 with circles lc rgb '#e4e4e4' fs solid 1.0 noborder notitle, \\\n"
+        "  '%s-streamlines.dat' using 1:2 with lines lc rgb '#1f3b73' lw 1 notitle, \\\n"
+        "  '%s-arrows.dat' using 1:2 with filledcurves closed fs solid 1.0 noborder lc rgb '#1f3b73' notitle\n",
+        data, s->base, s->base);
+  } else if (field->drawing == PG_PLOT_CONTOURS) {
+    const PetscReal tics = range->high / (PetscReal)s->colours[f];
+    PetscCall(PgScriptPalette(script, PETSC_FALSE, s->colours[f], range));
+    (void)fprintf(file, "set cbtics %.5g\n", (double)(s->colours[f] > 12 ? 2 * tics : tics));
+    (void)fprintf(file,
+                  "plot '%s-grid.dat' using 1:2:3 with image notitle, \\\n"
+                  "  '%s-contours.dat' using 1:2 with lines lc rgb '#404040' lw 0.5 notitle\nset cbtics autofreq\n",
+                  s->base, s->base);
+  } else {
+    PetscCall(PgScriptPalette(script, field->is_signed, 0, range));
+    DrawDiscs(file, data, s->column[f], s->discs.count, field->is_signed);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* "(a) " for the fields of the paper. */
+static void Letter(const PgPlotField *field, char letter[8])
+{
+  letter[0] = '\0';
+  for (PetscInt i = 0; i < PG_PLOT_PAPER_FIELDS; i++)
+    if (PgPlotFieldAt(i) == field) (void)snprintf(letter, 8, "(%c) ", (char)('a' + i));
+}
+
+/* The lines of the title: what, when (not on a sheet, which says it once), and how far the values go that the colours
+   do not show. */
+static void Title(FILE *file, const Sheet *s, PetscInt f, PetscBool sheet)
+{
+  const PgPlotField *field = s->field[f];
+  const PgPlotRange *range = &s->range[f];
+  const PetscBool    lines = (PetscBool)(field->drawing == PG_PLOT_STREAMLINES);
+  const PetscBool    below = (PetscBool)(!lines && range->min < range->low);
+  const PetscBool    above = (PetscBool)(!lines && range->max > range->high);
+  char               letter[8];
+
+  Letter(field, letter);
+  (void)fprintf(file, "set title \"%s%s", letter, field->title);
+  if (!lines) (void)fprintf(file, " [%s]", Unit(field));
+  if (!sheet) (void)fprintf(file, "\\n{/*0.85 %s}", s->when);
+  (void)fprintf(file, "\\n{/*0.85 ");
+  if (below) (void)fprintf(file, "least %.4g", (double)range->min);
+  if (above) (void)fprintf(file, "%slargest %.4g", below ? ", " : "", (double)range->max);
+  (void)fprintf(file, " }\"\n");
+}
+
+/* Size of the axes of a picture, whose longer side has `longest` pixels. */
+static void Pixels(const PetscReal low[2], const PetscReal high[2], PetscReal longest, PetscReal pixels[2])
+{
+  const PetscReal margin = 2.0 * MARGIN * PetscMax(high[0] - low[0], high[1] - low[1]);
+  const PetscReal width = high[0] - low[0] + margin, height = high[1] - low[1] + margin;
+
+  pixels[0] = PetscMax(120.0, longest * width / PetscMax(width, height));
+  pixels[1] = PetscMax(120.0, longest * height / PetscMax(width, height));
+}
+
+static PetscErrorCode Single(Sheet *s, PetscInt f)
+{
+  PgScript        script;
+  PetscReal       pixels[2];
+  char            name[256];
+  const PetscBool png_only = (PetscBool)(s->discs.count > MOST_SVG);
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscSNPrintf(name, sizeof name, "%s-%s", s->base, s->field[f]->name));
+  Pixels(s->discs.low, s->discs.high, 600.0, pixels);
+  PetscCall(PgScriptBegin(s->plot, name, pixels[0] + 220.0, pixels[1] + 140.0, png_only, &script));
+  PetscCall(PgScriptPicture(&script));
+  Axes(script.file, s->discs.low, s->discs.high);
+  (void)fprintf(script.file, "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\n");
+  Title(script.file, s, f, PETSC_FALSE);
+  PetscCall(DrawField(&script, s, f));
+  PetscCall(PgScriptEnd(&script));
+  PetscFunctionReturn(0);
+}
+
+/* Places on a sheet, in pixels from its upper left corner: cells of equal size, each with room for the labels of
+   its axes on the left and below, a title above, and a colour bar on the right. */
+enum { LEFT = 74, RIGHT = 84, ABOVE = 50, BELOW = 62, HEAD = 34 };
+
+static void Place(FILE *file, PetscInt cell, PetscInt columns, PetscInt rows, const PetscReal pixels[2])
+{
+  const PetscReal cw = pixels[0] + LEFT + RIGHT, ch = pixels[1] + ABOVE + BELOW;
+  const PetscReal width = cw * (PetscReal)columns, height = ch * (PetscReal)rows + HEAD;
+  const PetscReal left = cw * (PetscReal)(cell % columns) + LEFT, top = HEAD + ch * (PetscReal)(cell / columns) + ABOVE;
+  const PetscReal bottom = 1.0 - (top + pixels[1]) / height;
+
+  (void)fprintf(file,
+                "set lmargin at screen %.4f\nset rmargin at screen %.4f\nset tmargin at screen %.4f\nset bmargin at "
+                "screen %.4f\n",
+                (double)(left / width), (double)((left + pixels[0]) / width), (double)(1.0 - top / height),
+                (double)bottom);
+  (void)fprintf(file, "set colorbox user origin screen %.4f,%.4f size screen %.4f,%.4f\n",
+                (double)((left + pixels[0] + 10.0) / width), (double)bottom, (double)(13.0 / width),
+                (double)(pixels[1] / height));
+}
+
+/* In the last cell, when it is free: where on the curve of the load the snapshot is. */
+static PetscErrorCode LoadCell(const Sheet *s, FILE *file)
+{
+  PetscReal displacement;
+  PetscBool known;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPlotDisplacement(s->source, s->source->time[s->snapshot], &displacement, &known));
+  (void)fprintf(file, "set size noratio\nset xrange [0:*]\nset autoscale xfixmax\nset yrange [*:*]\nset xtics "
+                      "autofreq\nset ytics autofreq\n"
+                      "set title \"load [kN/m]\\n{/*0.85 }\"\nset xlabel 'displacement [mm]'\nset ylabel ''\n");
+  if (known)
+    (void)fprintf(file, "set arrow from first %.6g,graph 0 to first %.6g,graph 1 nohead dt 2 lc rgb '#888888'\n",
+                  1e3 * (double)displacement, 1e3 * (double)displacement);
+  (void)fprintf(file, "plot '%s-load.dat' using 1:2 with lines lc rgb '#0072B2' notitle\n", s->source->stem);
+  PetscFunctionReturn(0);
+}
+
+/* All fields in rows of four. */
+static PetscErrorCode All(Sheet *s)
+{
+  const PetscInt  cells = s->fields + (s->source->load && s->fields % 4), columns = PetscMin(4, cells);
+  const PetscInt  rows     = (cells + columns - 1) / columns;
+  const PetscBool png_only = (PetscBool)(s->discs.count > MOST_SVG);
+  PgScript        script;
+  PetscReal       pixels[2];
+  char            name[256], quoted[300];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscSNPrintf(name, sizeof name, "%s-fields", s->base));
+  Pixels(s->discs.low, s->discs.high, 380.0, pixels);
+  PetscCall(PgScriptBegin(s->plot, name, (pixels[0] + LEFT + RIGHT) * (PetscReal)columns,
+                          (pixels[1] + ABOVE + BELOW) * (PetscReal)rows + HEAD, png_only, &script));
+  PetscCall(PgScriptPicture(&script));
+  (void)fprintf(script.file, "set multiplot title '%s: %s' noenhanced\n",
+                PgScriptQuote(s->source->label, quoted, sizeof quoted), s->when);
+  Axes(script.file, s->discs.low, s->discs.high);
+  for (PetscInt f = 0; f < cells; f++) {
+    Place(script.file, f, columns, rows, pixels);
+    if (f == s->fields) {
+      PetscCall(LoadCell(s, script.file));
+      break;
+    }
+    (void)fprintf(script.file, "set xlabel '%s'\nset ylabel '%s'\n", f + columns >= cells ? "x [mm]" : "",
+                  f % columns == 0 ? "y [mm]" : "");
+    Title(script.file, s, f, PETSC_TRUE);
+    PetscCall(DrawField(&script, s, f));
+  }
+  (void)fprintf(script.file, "unset multiplot\n");
+  PetscCall(PgScriptEnd(&script));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPlotSnapshot(PgPlot plot, const PgPlotSource *source)
+{
+  Sheet s;
+
+  PetscFunctionBeginUser;
+  PetscCall(SheetCreate(plot, source, &s));
+  if (s.fields) PetscCall(WriteDiscs(&s));
+  for (PetscInt f = 0; f < s.fields; f++) {
+    const PgPlotRange none = PG_PLOT_NO_RANGE;
+    s.range[f]             = none;
+    if (s.field[f]->drawing != PG_PLOT_DISCS) {
+      PetscCall(WriteFlow(&s, f));
+      continue;
+    }
+    PetscCall(PgPlotRangeAdd(s.discs.count, s.value[f], s.field[f]->is_signed, plot->clip, &s.range[f]));
+    PgPlotRangeFinish(s.field[f]->is_signed, &s.range[f]);
+  }
+  for (PetscInt f = 0; f < s.fields; f++) PetscCall(Single(&s, f));
+  if (s.fields > 1) PetscCall(All(&s));
+  PetscCall(SheetDestroy(&s));
+  PetscFunctionReturn(0);
+}
+
+/* ---- film ---- */
+
+static PetscErrorCode Frame(PgPlot plot, const PgPlotSource *source, PetscInt frame, const char base[],
+                            PgPlotRange *range, PetscReal low[2], PetscReal high[2], PetscInt *count)
+{
+  PgPlotDiscs discs;
+  PetscReal  *value;
+  char        name[300];
+  FILE       *file;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPlotDiscsRead(source, frame, &discs));
+  PetscCall(PgPlotFieldRead(source, frame, plot->film, discs.count, &value));
+  PetscCall(PgPlotRangeAdd(discs.count, value, plot->film->is_signed, plot->clip, range));
+  for (int c = 0; c < 2; c++) {
+    low[c]  = PetscMin(low[c], discs.low[c]);
+    high[c] = PetscMax(high[c], discs.high[c]);
+  }
+  PetscCall(PetscSNPrintf(name, sizeof name, "%s-%06" PetscInt_FMT ".dat", base, frame));
+  PetscCall(PgPlotFolderCreateFile(&plot->folder, name, &file));
+  (void)fprintf(file, "# x [mm]  y [mm]  radius [mm]  %s [%s]\n", plot->film->name, plot->film->unit);
+  for (PetscInt i = 0; i < discs.count; i++)
+    (void)fprintf(file, "%.6g %.6g %.5g %.5g\n", (double)discs.x[i], (double)discs.y[i], (double)discs.r[i],
+                  (double)value[i]);
+  PetscCall(PgPlotFolderCloseFile(&plot->folder, name, &file));
+  PetscCall(PetscSNPrintf(name, sizeof name, "%s-%06" PetscInt_FMT ".png", base, frame));
+  PetscCall(PgPlotFolderAddPicture(&plot->folder, name));
+  *count = discs.count;
+  PetscCall(PetscFree(value));
+  PetscCall(PgPlotDiscsDestroy(&discs));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
+{
+  PgPlotRange range  = PG_PLOT_NO_RANGE;
+  PetscReal   low[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, high[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL}, pixels[2];
+  PetscInt    count = 0;
+  PgScript    script;
+  char        base[200], when[160];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscSNPrintf(base, sizeof base, "%s-film-%s", source->stem, plot->film->name));
+  for (PetscInt i = 0; i < source->snapshots; i++) PetscCall(Frame(plot, source, i, base, &range, low, high, &count));
+  PgPlotRangeFinish(plot->film->is_signed, &range);
+  /* one scale and one frame for all; an even number of pixels, as video encoders want */
+  Pixels(low, high, 600.0, pixels);
+  PetscCall(PgScriptBegin(plot, base, 2.0 * PetscFloorReal(0.5 * pixels[0]) + 220.0,
+                          2.0 * PetscFloorReal(0.5 * pixels[1]) + 120.0, PETSC_TRUE, &script));
+  Axes(script.file, low, high);
+  (void)fprintf(script.file, "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\n");
+  PetscCall(PgScriptPalette(&script, plot->film->is_signed, 0, &range));
+  for (PetscInt i = 0; i < source->snapshots; i++) {
+    char data[300];
+    PetscCall(When(source, source->time[i], when, sizeof when));
+    (void)fprintf(script.file, "set output '%s-%06d.png'\nset title \"%s [%s]\\n{/*0.85 %s}\"\n", base, (int)i,
+                  plot->film->title, Unit(plot->film), when);
+    PetscCall(PetscSNPrintf(data, sizeof data, "'%s-%06" PetscInt_FMT ".dat'", base, i));
+    DrawDiscs(script.file, data, 4, count, plot->film->is_signed);
+  }
+  PetscCall(PgScriptEnd(&script));
+  PetscFunctionReturn(0);
+}
