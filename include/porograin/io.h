@@ -103,6 +103,8 @@ PETSC_EXTERN PetscErrorCode PgPackingFromParticles(PgParticles particles, PgPack
 PETSC_EXTERN PetscErrorCode PgPackingDestroy(PgPacking *packing);
 /* Refuses a name that ends in neither .csv nor .h5, and a place that cannot be written. Collective. */
 PETSC_EXTERN PetscErrorCode PgPackingCheckPlace(MPI_Comm comm, const char file[]);
+/* Refuses the name of a packing that -output FILE.h5 is going to write, FILE.csv being its history. Collective. */
+PETSC_EXTERN PetscErrorCode PgPackingCheckOutput(MPI_Comm comm, const char file[]);
 /* Writes all discs by id with digits that read back exactly; FILE is replaced only by a complete file. Collective. */
 PETSC_EXTERN PetscErrorCode PgPackingWrite(MPI_Comm comm, const char file[], const PgPacking *packing);
 /* Reads -packing_export FILE: checks the place, and writes the discs there unless particles is NULL. Collective. */

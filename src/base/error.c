@@ -62,6 +62,8 @@ PetscErrorCode PgInitialize(int *argc, char ***argv, const char about[])
   PetscCall(PetscPushErrorHandler(HandleError, NULL));
   /* Output into a closed pipe is reported by the write that failed, not by a signal with pages of text. */
   (void)signal(SIGPIPE, SIG_IGN);
+  (void)signal(SIGXFSZ, SIG_IGN); /* the same for a limit on the size of files */
+  (void)signal(SIGTERM, SIG_DFL); /* PETSc's own handler prints pages; PgSimulationRun() has a better one */
   PetscCall(PetscOptionsHasName(NULL, NULL, "-error_stack", &print_stack));
   PetscCall(PgStagesRegister());
   PetscFunctionReturn(0);

@@ -314,10 +314,8 @@ static PetscErrorCode Report(MPI_Comm comm, const PgPacking *packing, const PgBo
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Refuse(MPI_Comm comm, const PackingCase *c, const PgPackingFindings *f)
+static PetscErrorCode Refuse(MPI_Comm comm, const PackingCase *c, const char from[], const PgPackingFindings *f)
 {
-  const char *from = c->from_file ? c->file : make_words[c->plan.make];
-
   PetscFunctionBeginUser;
   PgInputCheck(!f->coincident, comm,
                "packing '%s': discs %" PetscInt_FMT " and %" PetscInt_FMT
@@ -452,6 +450,7 @@ static PetscErrorCode MakeDiscs(PackingCase *c, const PgPacking *packing, const 
 static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
 {
   PackingCase      *c       = (PackingCase *)context;
+  const char       *from    = c->from_file ? c->file : make_words[c->plan.make];
   PgPacking         packing = {0};
   PgPackingFindings f       = {0};
   PgBox             box;
@@ -459,9 +458,9 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
   PetscFunctionBeginUser;
   PetscCall(GetDiscs(setup->comm, c, setup->restart, &packing, &box));
   if (!setup->restart) {
-    PetscCall(PgPackingInspect(setup->comm, &packing, &box, &f));
+    PetscCall(PgPackingInspect(setup->comm, from, &packing, &box, &f));
     PetscCall(Report(setup->comm, &packing, &box, &f));
-    PetscCall(Refuse(setup->comm, c, &f));
+    PetscCall(Refuse(setup->comm, c, from, &f));
     if (setup->pore && !c->porosity_set) PetscCall(BulkPorosity(setup->comm, &box, &f, &c->porosity));
   }
   PetscCall(MakeDiscs(c, &packing, &box, f.radius_mean, setup));

@@ -42,9 +42,9 @@ static PetscErrorCode Radii(MPI_Comm comm, const char from[], const PgPacking *p
   f->radius_min = -most[1];
   f->radius_max = most[0];
   PgInputCheck(f->radius_max <= 100 * f->radius_min, comm,
-               "the largest radius, %g m, is more than 100 times the smallest, %g m: the search for neighbours cannot "
-               "deal with that",
-               (double)f->radius_max, (double)f->radius_min);
+               "packing '%s': the largest radius, %g m, is more than 100 times the smallest, %g m: the search for "
+               "neighbours cannot deal with that",
+               from, (double)f->radius_max, (double)f->radius_min);
   PetscFunctionReturn(0);
 }
 
@@ -252,14 +252,15 @@ static PetscErrorCode Agree(MPI_Comm comm, Search *s)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgPackingInspect(MPI_Comm comm, const PgPacking *packing, const PgBox *box, PgPackingFindings *findings)
+PetscErrorCode PgPackingInspect(MPI_Comm comm, const char from[], const PgPacking *packing, const PgBox *box,
+                                PgPackingFindings *findings)
 {
   Search *s;
 
   PetscFunctionBeginUser;
   *findings = (PgPackingFindings){
       .overlap = -PETSC_MAX_REAL, .pair = {-1, -1}, .outside = -PETSC_MAX_REAL, .outside_disc = -1};
-  PetscCall(Radii(comm, packing, findings));
+  PetscCall(Radii(comm, from, packing, findings));
   PetscCall(PetscNew(&s));
   s->box = box;
   s->f   = findings;

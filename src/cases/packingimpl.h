@@ -63,6 +63,6 @@ typedef struct {
   PetscReal  sampled;     /* porosity in all of them together [1] */
 } PgPackingFindings;
 
-/* Looks at all pairs; stops early where discs are piled up. Collective. */
-PETSC_INTERN PetscErrorCode PgPackingInspect(MPI_Comm comm, const PgPacking *packing, const PgBox *box,
-                                             PgPackingFindings *findings);
+/* Looks at all pairs; stops early where discs are piled up. `from` names the packing in messages. Collective. */
+PETSC_INTERN PetscErrorCode PgPackingInspect(MPI_Comm comm, const char from[], const PgPacking *packing,
+                                             const PgBox *box, PgPackingFindings *findings);

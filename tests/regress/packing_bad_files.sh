@@ -21,7 +21,8 @@ refused() {
     fi
     [ ! -e result.h5 ] && [ ! -e export.csv ] && [ ! -e result.csv ] || fail "something was written: $file"
   done
-  grep 'porograin: error: ' expect_error.out | sed "s/^porograin: error: /| \`$file\` | $status | /; s/\$/ |/" >>bad_files.md
+  awk -v file="$file" -v status="$status" 'sub(/^porograin: error: /, "") { print "| `" file "` | " status " | " $0 " |" }' \
+    expect_error.out >>bad_files.md
   count=$((count + 1))
 }
 # made NAME TEXT: a file of that text, with printf's escapes.
@@ -87,7 +88,7 @@ refused coincident.csv 2 'discs 1 and 3 .* have the same centre'
 made overlapping '0,0,1\n3,0,1\n3.9,0,0.5\n'
 refused overlapping.csv 2 'discs 1 and 2 .* overlap by 1.2 of the smaller radius'
 made ratio '0,0,1\n3,0,0.001\n'
-refused ratio.csv 2 'more than 100 times the smallest'
+refused ratio.csv 2 "packing 'ratio.csv': the largest radius, 1. m, is more than 100 times the smallest"
 made outside '0,0,1\n3,0,1\n'
 refused outside.csv 2 'disc 1 .* reaches out of the box' -packing_box -1,2,-1,1
 made period '#! periodic_x 1 1\n0,0,1\n3,0,1\n'
