@@ -227,15 +227,13 @@ PETSC_INTERN PetscErrorCode PgDemSaveWallHistory_Private(PgDem dem);
 PETSC_INTERN PetscErrorCode PgDemRestoreWallHistory_Private(PgDem dem);
 /* Friction coefficient of a wall, its own or the default. */
 PETSC_INTERN PetscReal PgDemWallFriction_Private(PgDem dem, const PgWall *wall);
-/* Pair forces at the present positions where no evaluation has left them. */
-PETSC_INTERN PetscErrorCode PgDemComputePairs_Private(PgDem dem, const PgContactList *list, const PgDemDiscs *discs);
 /* Energy: what the caps took, and the work of all forces, in half a step of length h that ends (arrival) or begins
    here; what came between two steps; the start. */
 PETSC_INTERN PetscErrorCode PgDemBookWork_Private(PgDem dem, PetscReal h, PetscBool arrival);
 PETSC_INTERN PetscErrorCode PgDemBookBetween_Private(PgDem dem);
 PETSC_INTERN PetscErrorCode PgDemNoteKinetic_Private(PgDem dem);
 PETSC_INTERN PetscErrorCode PgDemFillFrictionEnergy_Private(PgDem dem);
-enum { PG_ENERGY_FORCES = 10 }; /* local damping (3), global damping (3), fluid (2), external (2) */
+enum { PG_ENERGY_FORCES = 16 }; /* local damping (3), global damping (3), fluid (2), external (2), of pairs (6) */
 PETSC_INTERN PetscErrorCode PgDemGetFrictionAccount_Private(PgDem dem, PetscReal **account, PetscInt *stride);
 /* dem->offset with room for `count` integers. */
 PETSC_INTERN PetscErrorCode PgDemGetOffset_Private(PgDem dem, PetscInt count);

@@ -8,7 +8,7 @@
    f^2/(2k) and what slip at a cap took, mean force times slip.
 
    Of the work on a pair each disc books its own part (v_a t + r_a w_a of the sliding rate, say), so that no ghost
-   velocities are needed; only sums over discs have a meaning there. What caps take is shared equally. Accounts are
+   velocities are needed and nothing of the lists is; only sums over discs have a meaning there. What caps take is shared equally. Accounts are
    kept by disc and summed up exactly when asked for, so they are the same on any number of ranks. */
 #include "demimpl.h"
 
@@ -30,6 +30,7 @@ enum {
   EXTERNAL,
   ACCOUNTS
 };
+enum { NOTED_PAIRS = 10 }; /* place in energy_force */
 
 PetscErrorCode PgDemSetEnergy(PgDem dem, PetscBool on)
 {
@@ -37,7 +38,9 @@ PetscErrorCode PgDemSetEnergy(PgDem dem, PetscBool on)
   const PgFieldInfo info[] = {
       {"energy_account", ACCOUNTS, "J/m", "Energy accounts of the disc", kept},
       {"energy_force", PG_ENERGY_FORCES, "N/m",
-       "Forces of local (3) and global damping (3), water and outside at the last evaluation", kept},
+       "Forces of local (3) and global damping (3), water and outside at the last evaluation; factors of (v_x, v_y, w) "
+       "in what dashpots and rolling forces take",
+       kept},
       {"friction_energy", 1, "J/m", "Energy that slip in the contacts of the disc has taken, half of each contact",
        PG_FIELD_OUTPUT}};
 
@@ -70,7 +73,8 @@ PetscErrorCode PgDemGetFrictionAccount_Private(PgDem dem, PetscReal **account, P
 typedef struct {
   PgContactList    list;
   PgDemDiscs       discs;
-  const PetscReal *m, *plate, *spring, *reaction, *noted;
+  const PetscReal *m, *plate, *spring, *reaction;
+  PetscReal       *noted;   /* PG_ENERGY_FORCES by disc */
   PetscReal       *account; /* ACCOUNTS by disc */
   PetscInt         owned;
 } Books;
@@ -85,7 +89,7 @@ static PetscErrorCode GetBooks(PgDem dem, Books *b)
   PetscCall(PgParticlesGetArray(dem->particles, dem->plate, (PetscReal **)&b->plate));
   PetscCall(PgParticlesGetArray(dem->particles, dem->plate_spring, (PetscReal **)&b->spring));
   PetscCall(PgParticlesGetArray(dem->particles, dem->plate_reaction, (PetscReal **)&b->reaction));
-  PetscCall(PgParticlesGetArray(dem->particles, dem->energy_force, (PetscReal **)&b->noted));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->energy_force, &b->noted));
   PetscCall(PgParticlesGetArray(dem->particles, dem->energy_account, &b->account));
   PetscFunctionReturn(0);
 }
@@ -135,64 +139,78 @@ static Elastic DiscElastic(PgDem dem, const Books *b, PetscInt i)
 
 /* ---- work ---- */
 
-/* What dashpots and the rolling force take from one side of a contact in time h. The rates are the part of this side:
-   n, t, overlap and force as in the law. */
-static void BookContact(PgDem dem, const PgContactForce *f, const PgContactHistory *history, PetscReal overlap,
-                        const PgContactMotion *own, PetscReal h, PetscReal account[ACCOUNTS])
-{
-  const PgContactParameters *p    = &dem->parameters;
-  const PetscReal            rest = (f->F_T - history->f_s) - history->f_r; /* dashpots, or the cap of the sum */
-  const PetscReal            take = -rest * own->sliding_rate * h;
+/* What dashpots and the rolling force take is linear in the velocities of each disc: the factors of (v_x, v_y, w). */
+typedef struct {
+  PetscReal dashpots[3], excess[3];
+} Factors;
 
-  account[DASHPOTS] -= h * (f->F_N + p->k_n * PetscMax(overlap, 0)) * own->overlap_rate;
-  account[DASHPOTS] -= h * (f->M_r - history->m_r) * own->spin_rate;
-  account[EXCESS] -= h * history->f_r * (own->sliding_rate - own->rolling_rate);
-  account[p->c_s > 0 || p->c_r > 0 ? DASHPOTS : EXCESS] += take;
+/* Adds those of one side of a contact, side 1 for the disc that n, t and the force belong to, -1 for its partner:
+   overlap rate side v.n, sliding rate side v.t + r w, rolling rate -r w, spin rate side w. */
+static void AddFactors(const PgContactParameters *p, const PgContactForce *f, const PgContactHistory *history,
+                       PetscReal overlap, const PetscReal n[2], PetscReal side, PetscReal r, Factors *factors)
+{
+  const PetscReal normal  = f->F_N + p->k_n * PetscMax(overlap, 0);
+  const PetscReal sliding = (f->F_T - history->f_s) - history->f_r; /* dashpots, or the cap of F_s + F_r */
+  PetscReal      *other   = p->c_s > 0 || p->c_r > 0 ? factors->dashpots : factors->excess;
+
+  factors->dashpots[0] += side * normal * n[0];
+  factors->dashpots[1] += side * normal * n[1];
+  factors->dashpots[2] += side * (f->M_r - history->m_r);
+  other[0] -= side * sliding * n[1];
+  other[1] += side * sliding * n[0];
+  other[2] += sliding * r;
+  factors->excess[0] -= side * history->f_r * n[1];
+  factors->excess[1] += side * history->f_r * n[0];
+  factors->excess[2] += 2 * r * history->f_r;
 }
 
-static void BookPairs(PgDem dem, const Books *b, PetscInt i, PetscReal h)
+/* Of all pairs of disc i, noted behind the forces until the next evaluation, whatever happens to the lists. */
+static void NotePairs(PgDem dem, const Books *b, PetscInt i, PetscReal noted[])
 {
-  const PetscReal *v = &b->discs.velocity[2 * i], w = b->discs.spin[i], r = b->discs.radius[i];
+  Factors factors = {{0, 0, 0}, {0, 0, 0}};
 
   for (PetscInt k = b->list.ptr[i]; k < b->list.ptr[i + 1]; k++) {
     const PetscInt         entry = b->list.sum[k], pair = entry >> 1, a = b->list.low[pair], j = b->list.high[pair];
-    const PetscReal       *f = &dem->pairs.result[4 * pair], side = entry & 1 ? -1 : 1;
+    const PetscReal       *f       = &dem->pairs.result[4 * pair];
     const PgContactHistory history = {dem->pairs.f_s[pair], dem->pairs.f_r[pair], dem->pairs.m_r[pair]};
     PetscReal              n[2];
     const PetscReal        overlap = PgDemPairGeometry(&b->discs, a, j, n);
     const PetscReal        F_T     = f[1] * n[0] - f[0] * n[1];
     const PgContactForce   force   = {f[0] * n[0] + f[1] * n[1], F_T, f[2] - b->discs.radius[a] * F_T};
-    const PgContactMotion  own     = {.overlap_rate = side * (v[0] * n[0] + v[1] * n[1]),
-                                      .sliding_rate = side * (v[1] * n[0] - v[0] * n[1]) + r * w,
-                                      .rolling_rate = -r * w,
-                                      .spin_rate    = side * w};
 
-    if (overlap > 0) BookContact(dem, &force, &history, overlap, &own, h, &b->account[ACCOUNTS * i]);
+    if (overlap > 0)
+      AddFactors(&dem->parameters, &force, &history, overlap, n, entry & 1 ? -1 : 1, b->discs.radius[i], &factors);
+  }
+  for (PetscInt d = 0; d < 3; d++) {
+    noted[d]     = factors.dashpots[d];
+    noted[3 + d] = factors.excess[d];
   }
 }
 
 static void BookWalls(PgDem dem, const Books *b, PetscReal h)
 {
   for (PetscInt k = 0; k < dem->wall_contact_count; k++) {
-    const PgWallContact  *c = &dem->wall_contact[k];
-    const PgWall         *w = &dem->walls[c->wall]->wall;
-    const PetscReal      *v = &b->discs.velocity[2 * c->disc], r = b->discs.radius[c->disc];
-    const PetscReal       ux = v[0] - w->velocity[0], uy = v[1] - w->velocity[1], spin = b->discs.spin[c->disc];
-    const PetscReal       n[2]    = {-w->normal[0], -w->normal[1]};
-    const PgContactMotion own     = {.overlap_rate = ux * n[0] + uy * n[1],
-                                     .sliding_rate = (uy * n[0] - ux * n[1]) + r * spin,
-                                     .rolling_rate = -r * spin,
-                                     .spin_rate    = spin};
-    const PetscReal       overlap = PgDemWallOverlap(w, &b->discs.position[2 * c->disc], r);
-    PetscReal             f[3];
+    const PgWallContact *c = &dem->wall_contact[k];
+    const PgWall        *w = &dem->walls[c->wall]->wall;
+    const PetscReal     *v = &b->discs.velocity[2 * c->disc], r = b->discs.radius[c->disc];
+    const PetscReal      u[3]    = {v[0] - w->velocity[0], v[1] - w->velocity[1], b->discs.spin[c->disc]};
+    const PetscReal      n[2]    = {-w->normal[0], -w->normal[1]};
+    const PetscReal      overlap = PgDemWallOverlap(w, &b->discs.position[2 * c->disc], r);
+    PetscReal           *account = &b->account[ACCOUNTS * c->disc], f[3];
+    Factors              factors = {{0, 0, 0}, {0, 0, 0}};
 
     PgDemWallContactForce_Private(dem, c, r, f);
-    b->account[ACCOUNTS * c->disc + WALLS] += h * (f[0] * w->velocity[0] + f[1] * w->velocity[1]);
-    if (overlap > 0) BookContact(dem, &c->force, &c->history, overlap, &own, h, &b->account[ACCOUNTS * c->disc]);
+    account[WALLS] += h * (f[0] * w->velocity[0] + f[1] * w->velocity[1]);
+    if (!(overlap > 0)) continue;
+    AddFactors(&dem->parameters, &c->force, &c->history, overlap, n, 1, r, &factors);
+    for (PetscInt d = 0; d < 3; d++) {
+      account[DASHPOTS] -= h * factors.dashpots[d] * u[d];
+      account[EXCESS] -= h * factors.excess[d] * u[d];
+    }
   }
 }
 
-/* What acts on disc i beside contacts. */
+/* What acts on disc i beside walls. */
 static void BookDisc(PgDem dem, const Books *b, PetscInt i, PetscReal h)
 {
   const PetscReal *v = &b->discs.velocity[2 * i], w = b->discs.spin[i];
@@ -203,6 +221,8 @@ static void BookDisc(PgDem dem, const Books *b, PetscInt i, PetscReal h)
   account[GLOBAL] -= h * (f[3] * v[0] + f[4] * v[1] + f[5] * w);
   account[FLUID] += h * (f[6] * v[0] + f[7] * v[1]);
   account[EXTERNAL] += h * (f[8] * v[0] + f[9] * v[1]);
+  account[DASHPOTS] -= h * (f[10] * v[0] + f[11] * v[1] + f[12] * w);
+  account[EXCESS] -= h * (f[13] * v[0] + f[14] * v[1] + f[15] * w);
   account[GRAVITY] += h * b->m[i] * (dem->gravity[0] * v[0] + dem->gravity[1] * v[1]);
 }
 
@@ -235,18 +255,16 @@ static void BookStart(PgDem dem, const Books *b)
 
 PetscErrorCode PgDemBookWork_Private(PgDem dem, PetscReal h, PetscBool arrival)
 {
-  const PgContactParameters *p = &dem->parameters;
-  Books                      b;
+  Books b;
 
   PetscFunctionBeginUser;
   PetscCall(GetBooks(dem, &b));
-  if (arrival) BookStart(dem, &b);
+  if (arrival) {
+    BookStart(dem, &b);
+    for (PetscInt i = 0; i < b.owned; i++) NotePairs(dem, &b, i, &b.noted[PG_ENERGY_FORCES * i + NOTED_PAIRS]);
+  }
   if (h == 0) PetscFunctionReturn(0);
   if (arrival) BookCaps(dem, &b);
-  if (p->c_n > 0 || p->c_s > 0 || p->c_r > 0 || p->c_theta > 0 || p->k_r > 0) {
-    PetscCall(PgDemComputePairs_Private(dem, &b.list, &b.discs));
-    for (PetscInt i = 0; i < b.owned; i++) BookPairs(dem, &b, i, h);
-  }
   BookWalls(dem, &b, h);
   for (PetscInt i = 0; i < b.owned; i++) BookDisc(dem, &b, i, h);
   for (PetscInt k = 0; k < dem->plate_disc_count; k++) {

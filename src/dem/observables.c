@@ -41,8 +41,9 @@ PetscErrorCode PgDemKineticEnergy(PgDem dem, PetscReal *energy)
   PetscFunctionReturn(0);
 }
 
-/* After a restart, or a list build. Nothing that the run depends on is changed. */
-PetscErrorCode PgDemComputePairs_Private(PgDem dem, const PgContactList *list, const PgDemDiscs *discs)
+/* Pair forces at the present positions when no evaluation has left them (after a restart, or a list build):
+   nothing that the run depends on is changed. */
+static PetscErrorCode ComputePairs(PgDem dem, const PgContactList *list, const PgDemDiscs *discs)
 {
   const PetscInt n = list->padded;
   PgDemPairs     p = dem->pairs;
@@ -100,7 +101,7 @@ PetscErrorCode PgDemComputeObservables(PgDem dem)
   PetscFunctionBeginUser;
   PetscCall(PgDemGetContacts_Private(dem, &list));
   PetscCall(PgDemGetDiscs_Private(dem, &discs));
-  PetscCall(PgDemComputePairs_Private(dem, &list, &discs));
+  PetscCall(ComputePairs(dem, &list, &discs));
   PetscCall(PgDemUpdateWallContacts_Private(dem));
   PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
   PetscCall(PgParticlesGetArray(dem->particles, dem->coordination, &touching));

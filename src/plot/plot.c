@@ -135,8 +135,8 @@ static PetscErrorCode Choose(PgPlot plot, PgPlotSource *source)
   if (!plot->time_set || last < 0) PetscFunctionReturn(0);
   /* a time that was rounded for printing is still inside */
   PgInputCheck(plot->time >= source->time[0] * (1 - 1e-3) && plot->time <= source->time[last] * (1 + 1e-3), plot->comm,
-               "option -plot_time: %.6g s is out of range, the snapshots of %s are from %.6g to %.6g s", (double)plot->time,
-               source->file, (double)source->time[0], (double)source->time[last]);
+               "option -plot_time: %.6g s is out of range, the snapshots of %s are from %.6g to %.6g s",
+               (double)plot->time, source->file, (double)source->time[0], (double)source->time[last]);
   for (PetscInt s = 0; s <= last; s++)
     if (PetscAbsReal(source->time[s] - plot->time) < PetscAbsReal(source->time[source->chosen] - plot->time))
       source->chosen = s;

@@ -230,7 +230,7 @@ static PetscErrorCode Single(Sheet *s, PetscInt f)
 
 /* Places on a sheet, in pixels from its upper left corner: cells of equal size, each with room for the labels of
    its axes on the left and below, a title above, and a colour bar on the right. */
-enum { LEFT = 74, RIGHT = 84, ABOVE = 50, BELOW = 62, HEAD = 34 };
+enum { LEFT = 82, RIGHT = 84, ABOVE = 50, BELOW = 62, HEAD = 34 };
 
 static void Place(FILE *file, PetscInt cell, PetscInt columns, PetscInt rows, const PetscReal pixels[2])
 {

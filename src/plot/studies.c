@@ -84,13 +84,12 @@ static void Style(FILE *f, const char x[], const char y[], PetscBool log_x, Pets
 }
 
 /* Points and lines of all series that have some; x and y are gnuplot expressions of the columns. */
-static void Draw(FILE *f, const Series *s, const char name[], const char x[], const char y[], const PetscInt drawn[],
-                 const PetscReal growth[])
+static void DrawSeries(FILE *f, const Series *s, const char name[], const char x[], const char y[],
+                       const PetscInt drawn[], const PetscReal growth[])
 {
   char     quoted[PG_PLOT_TEXT + 8];
   PetscInt n = 0;
 
-  (void)fprintf(f, "plot ");
   for (PetscInt k = 0; k < s->count; k++) {
     if (!drawn[k]) continue;
     (void)fprintf(f, "%s'%s.dat' index %d using (%s):(%s) with linespoints lc rgb '%s' dt %d pt %d ps 0.8 title '%s",
@@ -101,6 +100,23 @@ static void Draw(FILE *f, const Series *s, const char name[], const char x[], co
     n++;
   }
   (void)fprintf(f, "\n");
+}
+
+static void Draw(FILE *f, const Series *s, const char name[], const char x[], const char y[], const PetscInt drawn[],
+                 const PetscReal growth[])
+{
+  (void)fprintf(f, "plot ");
+  DrawSeries(f, s, name, x, y, drawn, growth);
+}
+
+/* The same, each point with its fourth column written beside it. */
+static void Labels(FILE *f, const Series *s, const char name[], const char x[], const char y[], const PetscInt drawn[])
+{
+  (void)fprintf(f,
+                "plot for [k=0:%d] '%s.dat' index k using (%s):(%s):4 with labels left offset 0.5,0.5 font ',9' tc rgb "
+                "'#666666' notitle, \\\n  ",
+                (int)s->count - 1, name, x, y);
+  DrawSeries(f, s, name, x, y, drawn, NULL);
 }
 
 static PetscInt Sum(PetscInt n, const PetscInt value[])
@@ -116,7 +132,7 @@ static PetscInt Sum(PetscInt n, const PetscInt value[])
 /* Iterations against N, with the exponents that the study has fitted. */
 static PetscErrorCode Growth(PgPlot plot, const PgPlotSource *source, const char table[])
 {
-  static const char *const by[2] = {"solver", NULL}, *const column[2] = {"N", "iterations"};
+  static const char *const by[2] = {"solver", NULL}, *const column[2] = {"N", "iterations_needed"};
   Series     s;
   PetscReal *growth, least = PETSC_MAX_REAL, most = 0.0;
   PetscInt  *drawn;
@@ -140,7 +156,7 @@ static PetscErrorCode Growth(PgPlot plot, const PgPlotSource *source, const char
     PetscCall(WriteSeries(plot, source, table, &s, name, 2, column, drawn));
     PetscCall(PgScriptBegin(plot, name, 820.0, 520.0, PETSC_FALSE, &script));
     PetscCall(PgScriptPicture(&script));
-    Style(script.file, "number of unknowns N", "iterations", PETSC_TRUE, PETSC_TRUE);
+    Style(script.file, "number of unknowns N", "iterations (extrapolated when stopped)", PETSC_TRUE, PETSC_TRUE);
     (void)fprintf(script.file, "set key outside right\nset xrange [%g:%g]\n", 0.8 * (double)least, 1.25 * (double)most);
     Draw(script.file, &s, name, "$1", "$2 > 0 ? $2 : NaN", drawn, growth);
     PetscCall(PgScriptEnd(&script));
@@ -255,66 +271,51 @@ static PetscErrorCode Sweeps(PgPlot plot, const PgPlotSource *source)
   PetscFunctionReturn(0);
 }
 
-/* Error against cost, a point with its name for each run; the reference is a line at its cost. */
+/* Error against cost: a line for each method, its points labelled with M, the steps of the discs in one of the water.
+   The reference, which has no error, is a line at its cost. */
 static PetscErrorCode Cost(PgPlot plot, const PgPlotSource *source)
 {
-  PetscInt  rows, points[2] = {0, 0};
-  PetscReal reference = 0.0;
-  PgScript  script;
-  char      name[256], file_name[300], first[PG_PLOT_TEXT + 8] = "";
-  FILE     *file;
+  static const char *const by[2]     = {"variant", NULL};
+  static const char *const column[4] = {"per_step", "load_error", "pressure_error", "fluid_every"};
+  static const char *const label[2]  = {"error of the load (rms)", "error of the pressure (L2)"};
+  Series                   s;
+  PetscInt                *drawn;
+  PetscReal                reference, every;
+  PgScript                 script;
+  char                     name[256], y[64], quoted[PG_PLOT_TEXT + 8];
 
   PetscFunctionBeginUser;
-  PetscCall(PgPlotSourceRows(source, "cost", &rows));
+  PetscCall(SeriesCreate(source, "cost", by, "", &s));
+  PetscCall(PetscMalloc1(s.count, &drawn));
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-cost", source->stem));
-  PetscCall(PetscSNPrintf(file_name, sizeof file_name, "%s.dat", name));
-  PetscCall(PgPlotFolderCreateFile(&plot->folder, file_name, &file));
-  (void)fprintf(file, "# variant  implicit  us/disc/step  error of the load  error of the pressure\n");
-  for (PetscInt i = 0; i < rows; i++) {
-    PetscReal  sweeps, every, cost, load, pressure;
-    PgPlotText variant;
-    PetscCall(PgPlotSourceText(source, "cost", i, "variant", variant));
-    PetscCall(PgPlotSourceReal(source, "cost", i, "sweeps", &sweeps));
-    PetscCall(PgPlotSourceReal(source, "cost", i, "fluid_every", &every));
-    PetscCall(PgPlotSourceReal(source, "cost", i, "per_step", &cost));
-    PetscCall(PgPlotSourceReal(source, "cost", i, "load_error", &load));
-    PetscCall(PgPlotSourceReal(source, "cost", i, "pressure_error", &pressure));
-    if (i == 0) {
-      reference = cost;
-      (void)PgScriptQuote(variant, first, sizeof first);
+  PetscCall(WriteSeries(plot, source, "cost", &s, name, 4, column, drawn));
+  if (Sum(s.count, drawn)) {
+    PetscCall(PgPlotSourceReal(source, "cost", 0, "per_step", &reference));
+    PetscCall(PgPlotSourceReal(source, "cost", 0, "fluid_every", &every));
+    PetscCall(PgScriptBegin(plot, name, 960.0, 480.0, PETSC_FALSE, &script));
+    PetscCall(PgScriptPicture(&script));
+    (void)fprintf(script.file, "set multiplot layout 1,2 margins 0.09,0.98,0.3,0.95 spacing 0.1,0\n");
+    Style(script.file, "time [us per disc and step of the discs]", "", PETSC_TRUE, PETSC_TRUE);
+    (void)fprintf(script.file,
+                  "set format x '%%g'\nset format y '%%g'\nset autoscale fix\n"
+                  "set offsets graph 0.05, graph 0.08, graph 0.08, graph 0.05\n"
+                  "do for [e=-9:3] {\n  set xtics add (sprintf('%%g', 2*10.0**e) 2*10.0**e, sprintf('%%g', 5*10.0**e) "
+                  "5*10.0**e)\n"
+                  "  set ytics add (sprintf('%%g', 2*10.0**e) 2*10.0**e, sprintf('%%g', 5*10.0**e) 5*10.0**e)\n}\n"
+                  "set arrow from first %.6g,graph 0 to first %.6g,graph 1 nohead dt 2 lc rgb '#888888'\n"
+                  "set label 'labels: M, dashed: reference (%s, M = %g)' at screen 0.5,0.025 center tc rgb '#666666'\n",
+                  (double)reference, (double)reference, PgScriptQuote(s.key[0], quoted, sizeof quoted), (double)every);
+    for (int p = 0; p < 2; p++) {
+      (void)fprintf(script.file, "set ylabel '%s'\n%s\n", label[p],
+                    p ? "unset key" : "set key at screen 0.5,0.06 center bottom maxrows 2 noenhanced");
+      (void)snprintf(y, sizeof y, "$%d > 0 ? $%d : NaN", p + 2, p + 2);
+      Labels(script.file, &s, name, "$1", y, drawn);
     }
-    points[0] += load > 0.0;
-    points[1] += pressure > 0.0;
-    (void)fprintf(file, "\"%s, M = %g\" %d %.6g %.6g %.6g\n", variant, (double)every, sweeps > 0.0 ? 0 : 1,
-                  (double)cost, (double)load, (double)pressure);
+    (void)fprintf(script.file, "unset multiplot\n");
+    PetscCall(PgScriptEnd(&script));
   }
-  PetscCall(PgPlotFolderCloseFile(&plot->folder, file_name, &file));
-  if (!points[0] && !points[1]) PetscFunctionReturn(0);
-  PetscCall(PgScriptBegin(plot, name, 900.0, 440.0, PETSC_FALSE, &script));
-  PetscCall(PgScriptPicture(&script));
-  (void)fprintf(script.file, "set multiplot layout 1,%d\n", (points[0] > 0) + (points[1] > 0));
-  Style(script.file, "time [us per disc and step of the discs]", "", PETSC_TRUE, PETSC_TRUE);
-  (void)fprintf(script.file, "set format x '%%g'\nset offsets graph 0.15, graph 0.25, graph 0.1, graph 0.1\n"
-                             "set key top center horizontal outside\n");
-  if (isfinite(reference) && reference > 0.0)
-    (void)fprintf(script.file, "set arrow from first %.6g,graph 0 to first %.6g,graph 1 nohead dt 2 lc rgb '#888888'\n",
-                  (double)reference, (double)reference);
-  for (int p = 0; p < 2; p++) {
-    if (!points[p]) continue;
-    (void)fprintf(script.file, "set ylabel '%s'\nplot ", p ? "error of the pressure (L2)" : "error of the load (rms)");
-    for (int implicit = 0; implicit < 2; implicit++)
-      (void)fprintf(script.file,
-                    "%s'%s.dat' using 3:($2 == %d && $%d > 0 ? $%d : NaN) with points pt 7 ps 1 lc rgb '%s' title '%s'",
-                    implicit ? ", \\\n  " : "", name, implicit, p + 4, p + 4, PgScriptColour(1 - implicit),
-                    implicit ? "implicit" : "explicit");
-    (void)fprintf(
-        script.file,
-        ", \\\n  '%s.dat' using 3:($%d > 0 ? $%d : NaN):1 with labels left offset 0.8,0 noenhanced notitle, \\\n"
-        "  NaN with lines dt 2 lc rgb '#888888' title 'reference: %s'\n",
-        name, p + 4, p + 4, first);
-  }
-  (void)fprintf(script.file, "unset multiplot\n");
-  PetscCall(PgScriptEnd(&script));
+  PetscCall(PetscFree(drawn));
+  PetscCall(SeriesDestroy(&s));
   PetscFunctionReturn(0);
 }
 

@@ -1,4 +1,5 @@
 # processors: 2
+# preset: long
 # timeout: 3000
 # kill -9 at random moments of a run that spends most of its time writing: there is always a checkpoint to go on
 # from, the result file can be read up to its last complete snapshot, and in the end all is as if nothing had

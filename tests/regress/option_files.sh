@@ -1,4 +1,5 @@
 # processors: 2
+# preset: long
 # timeout: 300
 # The shipped files: each panel file runs some fluid steps with either pressure, each solver file converges; -log_view
 # shows a stage for every phase of the step; -help prints and does nothing else.

@@ -1,4 +1,5 @@
 # processors: 2
+# preset: long
 # timeout: 300
 # Wrong input ends the run before anything is written, with one message that names option, value and what was expected,
 # and with exit status 2 (4 when a file cannot be read or written).

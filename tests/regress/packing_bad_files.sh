@@ -1,4 +1,5 @@
-# timeout: 180
+# timeout: 300
+# preset: long
 # processors: 2
 # Packing files that are no packings, given to the program: each is refused with its status and one message, on one
 # rank and on two, and nothing is written. bad_files.md in the working folder lists what was said.

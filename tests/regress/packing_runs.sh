@@ -1,4 +1,5 @@
 # timeout: 120
+# preset: long
 # processors: 2
 # Whole runs with packings: a panel that went through a file moves like the panel, chance makes the same file on any
 # number of ranks, and what was generated can be restarted.
@@ -26,6 +27,15 @@ for n in 1 2 4; do
   cmp random1.csv "random$n.csv" || fail "another packing on $n ranks"
 done
 expect_match 'porosity 0.190000 in the box' random1.out
+
+# What is found out about a packing, too: of a lattice with contacts between all ranks.
+for n in 1 2 4; do
+  run "$n" "$POROGRAIN" -case packing -packing_generate hexagonal -packing_count 400 -packing_periodic \
+    -end_time 1e-8 | sed -n '2,5p' >report$n
+  cmp report1 "report$n" || fail "other findings on $n ranks"
+done
+# 20 in a row (19 of 20 rows sqrt(3)/2 as high), closed in x: 20 rows of 19, and 20 discs more in the last two
+expect_match '^  [0-9]+ pairs touch; largest overlap' report1
 # shellcheck disable=SC2086
 "$POROGRAIN" $random -packing_seed 12 -end_time 1e-7 -packing_export other.csv >other.out
 ! cmp -s random1.csv other.csv || fail 'another seed makes the same packing'
@@ -34,7 +44,7 @@ run 2 "$POROGRAIN" -case packing -packing copy.h5 -dt 1e-7 -end_time 1e-7 -packi
 cmp random1.csv copy.csv || fail 'the packing has changed on its way through HDF5'
 
 # What the program says of it, from all pairs by awk.
-awk -F, '!/^[#x]/ { x[n] = $1; y[n] = $2; r[n++] = $3 }
+awk -F, 'BEGIN { n = 0 } !/^[#x]/ { x[n] = $1; y[n] = $2; r[n++] = $3 }
   END { for (i = 0; i < n; i++) for (j = 0; j < i; j++) {
           d = sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2); o = (r[i] + r[j] - d) / (r[i] < r[j] ? r[i] : r[j])
           if (!(i == 1 && j == 0) && o <= worst) continue

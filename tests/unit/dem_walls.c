@@ -103,9 +103,11 @@ typedef struct {
   PetscReal position[2 * N], velocity[2 * N], spin[N], force[2 * N], torque[N], reaction[2 * N];
   PetscReal coordination[N], stress[4 * N], on_wall[WALLS][2], critical;
   PgWall    wall[WALLS];
+  PetscBool accounts;
+  PgEnergy  energy;
 } Result;
 
-static void Start(MPI_Comm comm, World *world)
+static void Start(MPI_Comm comm, PetscBool energy, World *world)
 {
   const PgPlate   press      = {.name = "press", .side = 1, .velocity = -0.3, .friction = 0.2};
   const PetscReal gravity[2] = {1.3, -9.7}, width = 9.99e-3 * (COLUMNS - 0.5) + 9.8e-3;
@@ -135,6 +137,7 @@ static void Start(MPI_Comm comm, World *world)
   }
   WorldCreate(comm, world);
   CHECK(PgDemSetParameters(world->dem, &parameters));
+  CHECK(PgDemSetEnergy(world->dem, energy));
   CHECK(PgDemSetGravity(world->dem, gravity));
   CHECK(PgDemSetDamping(world->dem, 0.2, 11));
   CHECK(PgDemAddPlate(world->dem, &press, NULL));
@@ -163,30 +166,43 @@ static void Finish(World *world, Result *r)
     CHECK(PgDemGetWall(world->dem, k, &r->wall[k]));
   }
   CHECK(PgDemCriticalTimeStep(world->dem, &r->critical));
+  CHECK(PgDemHasEnergy(world->dem, &r->accounts));
+  if (r->accounts) CHECK(PgDemGetEnergy(world->dem, &r->energy));
 }
 
 static void AssertSameBits(PetscInt n, const PetscReal a[], const PetscReal b[])
 {
-  for (PetscInt k = 0; k < n; k++) assert_true(a[k] == b[k]);
+  for (PetscInt k = 0; k < n; k++)
+    if (a[k] != b[k]) fail_msg("value %d of %d: %.17g and %.17g", (int)k, (int)n, (double)a[k], (double)b[k]);
 }
 
-/* Lists rebuilt all the time and discs dealt out anew to other ranks give the bits of a serial run with wide lists
-   that builds them once. */
-static void RebuildsAndMigration(void **state)
+/* A serial run with wide lists that builds them once. */
+static void Quiet(PetscBool energy, Result *result)
 {
-  static Result quiet, busy;
-  World         world;
+  World world;
 
-  (void)state;
   CHECK(PetscOptionsSetValue(NULL, "-neighbors_skin", "0.9"));
-  Start(PETSC_COMM_SELF, &world);
+  Start(PETSC_COMM_SELF, energy, &world);
   CHECK(PetscOptionsClearValue(NULL, "-neighbors_skin"));
   for (PetscInt k = 0; k < STEPS; k++) WorldStep(&world, 1.3e-6);
   assert_int_equal(world.builds, 1);
-  Finish(&world, &quiet);
+  Finish(&world, result);
   WorldDestroy(&world);
+}
 
-  Start(PETSC_COMM_WORLD, &world);
+/* Lists rebuilt all the time and discs dealt out anew to other ranks give the bits of that run. So do the energy
+   accounts, and keeping them changes nothing else. */
+static void RebuildsAndMigration(void **state)
+{
+  static Result quiet, accounted, busy;
+  World         world;
+
+  (void)state;
+  Quiet(PETSC_FALSE, &quiet);
+  Quiet(PETSC_TRUE, &accounted);
+  assert_true(!quiet.accounts && accounted.accounts);
+
+  Start(PETSC_COMM_WORLD, PETSC_TRUE, &world);
   for (PetscInt k = 0; k < STEPS; k++) {
     WorldStep(&world, 1.3e-6);
     if (k % 7 == 3) {
@@ -223,6 +239,9 @@ static void RebuildsAndMigration(void **state)
     AssertSameBits(2, quiet.wall[k].velocity, busy.wall[k].velocity);
   }
   assert_true(quiet.critical == busy.critical);
+  AssertSameBits(sizeof(PgEnergy) / sizeof(PetscReal), (const PetscReal *)&accounted.energy,
+                 (const PetscReal *)&busy.energy);
+  assert_true(busy.energy.friction_sliding > 0 && busy.energy.work_walls != 0 && busy.energy.work_plates != 0);
 }
 
 /* A wall that comes from far beyond the skin meets discs at rest, whose lists never need a build, and sweeps them up:

@@ -126,7 +126,47 @@ static PetscReal SolidArea(const Made *m)
 #define RUN " -end_time 1e-6 -dt 1e-8 "
 static Made world, alone;
 
-/* Pressed together on all ranks and on each rank alone: the same bits. And dense as asked, without overlaps. */
+/* On all ranks together and on each rank alone: the same bits. */
+static void CheckAlike(const char options[])
+{
+  Make(PETSC_COMM_WORLD, options, &world);
+  Make(PETSC_COMM_SELF, options, &alone);
+  assert_int_equal(world.discs, alone.discs);
+  assert_memory_equal(world.x, alone.x, 2 * (size_t)world.discs * sizeof(PetscReal));
+  assert_memory_equal(world.r, alone.r, (size_t)world.discs * sizeof(PetscReal));
+}
+
+/* So few discs that many pairs lie between ranks, pressed until they jam: the message tells the largest overlap. */
+static void few_discs_on_many_ranks(void **state)
+{
+  (void)state;
+  for (int seed = 0; seed < 6; seed++) {
+    char           options[256], together[4096], by_itself[4096];
+    PetscErrorCode err = 0;
+    PgSimulation   simulation;
+
+    (void)snprintf(options, sizeof options,
+                   "-case packing -packing_generate random -packing_count 24 -packing_target_porosity 0.2"
+                   " -packing_seed %d" RUN,
+                   seed);
+    CatchErrors();
+    simulation = Start(PETSC_COMM_WORLD, options, &err);
+    CaughtErrors(together);
+    assert_int_equal(err, PETSC_ERR_USER_INPUT);
+    ok(PgSimulationDestroy(&simulation));
+    CatchErrors();
+    if (!test_rank) {
+      simulation = Start(PETSC_COMM_SELF, options, &err);
+      ok(PgSimulationDestroy(&simulation));
+    }
+    CaughtErrors(by_itself);
+    assert_int_equal(err, PETSC_ERR_USER_INPUT);
+    assert_non_null(strstr(together, "they overlap by up to 0.0"));
+    assert_string_equal(together, by_itself);
+  }
+}
+
+/* ... and dense as asked, without overlaps, in the box. */
 static void chance_is_the_same_on_any_number_of_ranks(void **state)
 {
   static const struct {
@@ -148,11 +188,7 @@ static void chance_is_the_same_on_any_number_of_ranks(void **state)
     PetscReal right = 0, top = 0, box;
 
     (void)snprintf(options, sizeof options, "-case packing -packing_generate random %s" RUN, plan[k].options);
-    Make(PETSC_COMM_WORLD, options, &world);
-    Make(PETSC_COMM_SELF, options, &alone);
-    assert_int_equal(world.discs, alone.discs);
-    assert_memory_equal(world.x, alone.x, 2 * (size_t)world.discs * sizeof(PetscReal));
-    assert_memory_equal(world.r, alone.r, (size_t)world.discs * sizeof(PetscReal));
+    CheckAlike(options);
     /* -packing_relax_overlap, default 1e-6, and rounding of the distance */
     assert_true(LargestOverlap(&world) <= 1e-6 + 1e-12);
     for (PetscInt i = 0; i < world.discs; i++) {
@@ -422,6 +458,7 @@ int main(int argc, char *argv[])
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(chance_is_the_same_on_any_number_of_ranks),
+      cmocka_unit_test(few_discs_on_many_ranks),
       cmocka_unit_test(numbers_are_those_of_splitmix64),
       cmocka_unit_test(what_jams_is_refused),
       cmocka_unit_test(lattices_are_regular),
