@@ -1,4 +1,5 @@
 # processors: 2
+# preset: long
 # timeout: 600
 # Every registered case goes on from its checkpoints with the same bits: walls, servo walls, periodic packings, energy
 # accounts, gravity.
@@ -45,7 +46,7 @@ check plates 1 1e-3 -case packing -packing_generate random -packing_count 100 -p
 
 # All cases but packing and panel, which are above under other names, have been here.
 "$POROGRAIN" -help >help.txt
-cases=$(sed -n 's/.*-case <.*one of \([^)]*\).*/\1/p' help.txt | tr -d ' ' | tr ',' '\n')
+cases=$(sed -n 's/^ *-case: .*one of \(.*\)$/\1/p' help.txt | tr -d ' ' | tr ',' '\n')
 [ "$(echo "$cases" | wc -l)" -ge 14 ] || { grep -e -case help.txt >&2; fail "cases of -help: $cases"; }
 for name in $cases; do
   [ "$name" = packing ] || [ -e "$name.pgc" ] || fail "case $name is not restarted here"

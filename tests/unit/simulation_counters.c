@@ -1,4 +1,4 @@
-/* ranks: 1 2 */
+/* ranks: 1 */
 /* timeout: 300 */
 /* Steady steps: while the pair lists stand, a step builds no list, makes no matrix pattern and allocates nothing.
    Allocations are counted in two ways: those through PETSc's PetscMalloc(), whose caller is known by file and line, and

@@ -1,4 +1,5 @@
 # The dry panel against LAMMPS: frictional contacts with history, no rolling resistance, no damping, smooth plates.
+# preset: long
 # timeout: 300
 # processors: 2
 #
