@@ -150,9 +150,12 @@ PETSC_EXTERN PetscErrorCode PgDemHasEnergy(PgDem dem, PetscBool *on);
 /* Exact sums over discs. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemGetEnergy(PgDem dem, PgEnergy *energy);
 /* Stops the run (error with step, time, particle id, position and values) when a velocity or force is not
-   finite, a disc is faster than -dem_guard_speed, or an overlap exceeds -dem_guard_overlap times the
-   smaller radius. Collective. */
+   finite, a disc is faster than -dem_guard_speed, an overlap exceeds -dem_guard_overlap times the smaller
+   radius, or a disc leaves -dem_guard_domain. Collective. */
 PETSC_EXTERN PetscErrorCode PgDemGuard(PgDem dem, PetscInt step, PetscReal time);
+/* The same when dt is above -dem_guard_time_step times the critical one of the contacts as they are; nothing is
+   said while nothing touches. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemGuardTimeStep(PgDem dem, PetscInt step, PetscReal time, PetscReal dt);
 
 /* Adds what a checkpoint must hold beside fields and histories: walls and plates. Addresses stay valid until a wall
    or plate is added. */

@@ -75,5 +75,5 @@ PETSC_EXTERN PetscErrorCode PgPorePredict(PgPore pore, PetscReal dt_f);
 PETSC_EXTERN PetscErrorCode PgPoreCorrect(PgPore pore, PetscReal dt_f);
 PETSC_EXTERN PetscErrorCode PgPoreGetStats(PgPore pore, PgPoreStats *stats);
 /* Stops the run when a pressure or velocity is not finite or beyond -pore_guard_pressure,
-   -pore_guard_speed. Collective. */
+   -pore_guard_speed, or when more than -pore_guard_clipped of the porosities are out of range. Collective. */
 PETSC_EXTERN PetscErrorCode PgPoreGuard(PgPore pore, PetscInt step, PetscReal time);

@@ -68,19 +68,31 @@ static PetscReal ContactLimit(const PgContactParameters *p, PetscReal inverse, P
   return PetscMin(normal, tangential);
 }
 
-PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt)
+/* The spring that limits the time step: the largest stable one, and an owned disc at its end (-1: no spring). */
+typedef struct {
+  PetscReal limit; /* [s] */
+  PetscInt  disc;
+} Stiffest;
+
+static void Consider(Stiffest *stiffest, PetscReal limit, PetscInt disc)
+{
+  if (limit < stiffest->limit) *stiffest = (Stiffest){limit, disc};
+}
+
+/* Of this rank. `all`: nothing touches, and the springs that may come are considered. Collective. */
+static PetscErrorCode FindStiffest(PgDem dem, Stiffest *stiffest, PetscBool *all)
 {
   PgContactList list;
   PgDemDiscs    discs;
-  PetscReal    *share, *m, *plate, skin, limit = PETSC_MAX_REAL;
+  PetscReal    *share, *m, *plate, skin;
   PetscInt      owned;
-  PetscBool     all = PETSC_FALSE;
 
   PetscFunctionBeginUser;
+  *stiffest = (Stiffest){PETSC_MAX_REAL, -1};
   PetscCall(PgNeighborsGetContacts(dem->neighbors, &list));
   PetscCall(PgDemGetDiscs_Private(dem, &discs));
   PetscCall(PgNeighborsGetSkin(dem->neighbors, &skin));
-  PetscCall(CountShares(dem, &list, &discs, skin, &all));
+  PetscCall(CountShares(dem, &list, &discs, skin, all));
   PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
   PetscCall(PgParticlesGetArray(dem->particles, dem->share, &share));
   PetscCall(PgParticlesGetArray(dem->particles, PG_MASS, &m));
@@ -91,18 +103,76 @@ PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt)
     const PetscReal z_a = share[a] / m[a], z_j = share[j] / m[j]; /* I = m r^2/2 */
     PetscReal       n[2];
 
-    if (!all && !PgDemTouching(PgDemPairGeometry(&discs, a, j, n), r_a, r_j)) continue;
-    limit = PetscMin(
-        limit, ContactLimit(&dem->parameters, z_a + z_j, 2 * (z_a + z_j), 2 * (z_a / (r_a * r_a) + z_j / (r_j * r_j))));
+    if (!*all && !PgDemTouching(PgDemPairGeometry(&discs, a, j, n), r_a, r_j)) continue;
+    Consider(stiffest,
+             ContactLimit(&dem->parameters, z_a + z_j, 2 * (z_a + z_j), 2 * (z_a / (r_a * r_a) + z_j / (r_j * r_j))),
+             a < owned ? a : j);
   }
   for (PetscInt i = 0; i < owned; i++) { /* the other side of a wall contact is of infinite mass */
     const PetscReal z = share[i] / m[i], r = discs.radius[i];
     for (PetscInt k = 0; k < dem->wall_count; k++)
-      if (AtWall(dem, &discs, i, k, all, skin))
-        limit = PetscMin(limit, ContactLimit(&dem->parameters, z, 2 * z, 2 * z / (r * r)));
+      if (AtWall(dem, &discs, i, k, *all, skin))
+        Consider(stiffest, ContactLimit(&dem->parameters, z, 2 * z, 2 * z / (r * r)), i);
   }
   for (PetscInt i = 0; i < owned; i++)
-    if (plate[i] > 0) limit = PetscMin(limit, Limit(dem->parameters.k_s * 3 * share[i] / m[i], 0));
-  PetscCallMPI(MPI_Allreduce(&limit, dt, 1, MPIU_REAL, MPIU_MIN, PgParticlesComm(dem->particles)));
+    if (plate[i] > 0) Consider(stiffest, Limit(dem->parameters.k_s * 3 * share[i] / m[i], 0), i);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt)
+{
+  Stiffest  stiffest;
+  PetscBool all = PETSC_FALSE;
+
+  PetscFunctionBeginUser;
+  PetscCall(FindStiffest(dem, &stiffest, &all));
+  PetscCallMPI(MPI_Allreduce(&stiffest.limit, dt, 1, MPIU_REAL, MPIU_MIN, PgParticlesComm(dem->particles)));
+  PetscFunctionReturn(0);
+}
+
+/* Names the disc; the same on all ranks. */
+static PetscErrorCode ReportTooStiff(PgDem dem, const Stiffest *stiffest, PetscReal limit, PetscInt step,
+                                     PetscReal time, PetscReal dt)
+{
+  MPI_Comm        comm = PgParticlesComm(dem->particles);
+  const PetscInt *id;
+  PetscReal      *x, *m, *share, sent[5] = {0};
+  PetscInt        mine = PETSC_MAX_INT, first;
+  PetscMPIInt     rank, holder;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(PgParticlesGetIds(dem->particles, &id));
+  PetscCall(PgParticlesGetArray(dem->particles, PG_POSITION, &x));
+  PetscCall(PgParticlesGetArray(dem->particles, PG_MASS, &m));
+  PetscCall(PgParticlesGetArray(dem->particles, dem->share, &share));
+  if (stiffest->limit == limit) mine = id[stiffest->disc];
+  PetscCallMPI(MPI_Allreduce(&mine, &first, 1, MPIU_INT, MPI_MIN, comm));
+  holder = mine == first ? rank : PETSC_MPI_INT_MAX;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &holder, 1, MPI_INT, MPI_MIN, comm));
+  if (rank == holder) {
+    const PetscInt  i      = stiffest->disc;
+    const PetscReal all[5] = {(PetscReal)id[i], x[2 * i], x[2 * i + 1], m[i], share[i]};
+    PetscCall(PetscArraycpy(sent, all, 5));
+  }
+  PetscCallMPI(MPI_Bcast(sent, 5, MPIU_REAL, holder, comm));
+  PgRunError(comm,
+             "step %" PetscInt_FMT ", time %g s: disc %" PetscInt_FMT
+             " at (%g, %g) m, mass %g kg/m, with %g springs on it bears a time step of at most %g s; %g s is above "
+             "-dem_guard_time_step %g times that: give a smaller -dt",
+             step, (double)time, (PetscInt)sent[0], (double)sent[1], (double)sent[2], (double)sent[3], (double)sent[4],
+             (double)limit, (double)dt, (double)dem->guard_time_step);
+}
+
+PetscErrorCode PgDemGuardTimeStep(PgDem dem, PetscInt step, PetscReal time, PetscReal dt)
+{
+  Stiffest  stiffest;
+  PetscReal limit;
+  PetscBool all = PETSC_FALSE;
+
+  PetscFunctionBeginUser;
+  PetscCall(FindStiffest(dem, &stiffest, &all));
+  PetscCallMPI(MPI_Allreduce(&stiffest.limit, &limit, 1, MPIU_REAL, MPIU_MIN, PgParticlesComm(dem->particles)));
+  if (!all && dt > dem->guard_time_step * limit) PetscCall(ReportTooStiff(dem, &stiffest, limit, step, time, dt));
   PetscFunctionReturn(0);
 }

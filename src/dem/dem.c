@@ -52,9 +52,12 @@ PetscErrorCode PgDemCreate(PgParticles particles, PgNeighbors neighbors, PgDem *
   d->servo_gain            = 0.5;
   d->guard_overlap         = 0.5;
   d->guard_speed           = 1e3;
-  d->lists                 = -1;
-  d->plate_discs_made      = -1;
-  d->wall_lists            = -1;
+  d->guard_time_step       = 1;
+  d->guard_domain[0] = d->guard_domain[2] = -PETSC_MAX_REAL;
+  d->guard_domain[1] = d->guard_domain[3] = PETSC_MAX_REAL;
+  d->lists                                = -1;
+  d->plate_discs_made                     = -1;
+  d->wall_lists                           = -1;
   PetscCall(RegisterFields(d));
   *dem = d;
   PetscFunctionReturn(0);
@@ -159,6 +162,13 @@ static PetscErrorCode ReadOptions(PgDem dem, PetscOptionItems *PetscOptionsObjec
                          &dem->guard_overlap, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-dem_guard_speed", "Stop when a disc is faster", "m/s", PG_POSITIVE,
                          PETSC_MAX_REAL, &dem->guard_speed, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-dem_guard_time_step",
+                         "Stop when the time step is above this multiple of the critical one of the contacts as they "
+                         "are",
+                         "1", PG_POSITIVE, PETSC_MAX_REAL, &dem->guard_time_step, NULL));
+  PetscCall(PgOptionReals(PetscOptionsObject, "-dem_guard_domain",
+                          "Stop when the centre of a disc leaves x low, x high, y low, y high; default: no bounds", "m",
+                          4, dem->guard_domain, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -209,8 +219,9 @@ PetscErrorCode PgDemView(PgDem dem, PetscViewer viewer)
                                    (double)dem->global_damping));
   PetscCall(
       PetscViewerASCIIPrintf(viewer, "gravity (%g, %g) m/s2\n", (double)dem->gravity[0], (double)dem->gravity[1]));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "guard: overlap %g of the smaller radius, speed %g m/s\n",
-                                   (double)dem->guard_overlap, (double)dem->guard_speed));
+  PetscCall(PetscViewerASCIIPrintf(
+      viewer, "guard: overlap %g of the smaller radius, speed %g m/s, time step %g of the critical\n",
+      (double)dem->guard_overlap, (double)dem->guard_speed, (double)dem->guard_time_step));
   for (PetscInt k = 0; k < dem->plate_count; k++) {
     const PgPlate *p = &dem->plates[k];
     if (p->hold)

@@ -55,14 +55,16 @@ struct PgDem_s {
   PgNeighbors         neighbors;
   const PgContactLaw *law;
   PgContactParameters parameters;
-  PetscReal           local_damping;  /* alpha of Cundall's local damping [1] */
-  PetscReal           global_damping; /* viscous, by mass [1/s] */
-  PetscReal           plate_friction; /* of plates that do not say [1] */
-  PetscReal           wall_friction;  /* of walls that do not say [1]; < 0: that of the discs */
-  PetscReal           servo_gain;     /* part of the missing force that a servo wall makes up for in a step [1] */
-  PetscReal           guard_overlap;  /* largest overlap over the smaller radius [1] */
-  PetscReal           guard_speed;    /* [m/s] */
-  PetscReal           gravity[2];     /* [m/s2] */
+  PetscReal           local_damping;   /* alpha of Cundall's local damping [1] */
+  PetscReal           global_damping;  /* viscous, by mass [1/s] */
+  PetscReal           plate_friction;  /* of plates that do not say [1] */
+  PetscReal           wall_friction;   /* of walls that do not say [1]; < 0: that of the discs */
+  PetscReal           servo_gain;      /* part of the missing force that a servo wall makes up for in a step [1] */
+  PetscReal           guard_overlap;   /* largest overlap over the smaller radius [1] */
+  PetscReal           guard_speed;     /* [m/s] */
+  PetscReal           guard_time_step; /* largest time step over the critical one [1] */
+  PetscReal           guard_domain[4]; /* x low, x high, y low, y high that no centre may leave [m] */
+  PetscReal           gravity[2];      /* [m/s2] */
 
   PgField  force, torque, fluid_force, external_force;
   PgField  plate, plate_spring, plate_reaction;

@@ -1,13 +1,13 @@
 /* The guard: stops a run that has gone wrong, and says where. */
 #include "demimpl.h"
 
-typedef enum { FINE, OVERLAP, FAST, NOT_FINITE } Trouble;
+typedef enum { FINE, OUTSIDE, OVERLAP, FAST, NOT_FINITE } Trouble;
 
 /* The worst disc of a rank: by kind of trouble, then by how bad, then by permanent id. */
 typedef struct {
   Trouble   kind;
   PetscInt  disc, partner; /* local indices; partner < 0: wall -1 - partner */
-  PetscReal value;         /* overlap fraction, or speed */
+  PetscReal value;         /* overlap fraction, speed, or way out of the domain */
 } Offender;
 
 /* What is sent about it. */
@@ -18,6 +18,14 @@ static PetscBool Worse(Trouble kind, PetscReal value, PetscInt id, const Offende
   if (kind != than->kind) return (PetscBool)(kind > than->kind);
   if (value != than->value) return (PetscBool)(value > than->value);
   return (PetscBool)(id < ids[than->disc]);
+}
+
+/* How far a centre is outside the domain [m]; 0: inside. */
+static PetscReal Outside(const PetscReal domain[4], const PetscReal x[2])
+{
+  const PetscReal dx = PetscMax(domain[0] - x[0], x[0] - domain[1]), dy = PetscMax(domain[2] - x[1], x[1] - domain[3]);
+
+  return PetscMax(0, PetscMax(dx, dy));
 }
 
 static PetscErrorCode WorstDisc(PgDem dem, const PgDemDiscs *discs, const PetscInt id[], Offender *worst)
@@ -33,15 +41,19 @@ static PetscErrorCode WorstDisc(PgDem dem, const PgDemDiscs *discs, const PetscI
     const PetscReal *x = &discs->position[2 * i], *v = &discs->velocity[2 * i], *f = &force[2 * i];
     const PetscReal  all[] = {x[0], x[1], v[0], v[1], f[0], f[1], discs->spin[i], torque[i]};
     Trouble          kind  = FINE;
-    PetscReal        speed = 0;
+    PetscReal        value = 0;
 
     for (size_t c = 0; c < sizeof(all) / sizeof(*all); c++)
       if (PetscIsInfOrNanReal(all[c])) kind = NOT_FINITE;
     if (kind == FINE) {
-      speed = hypot(v[0], v[1]);
-      if (speed > dem->guard_speed) kind = FAST;
+      value = hypot(v[0], v[1]);
+      if (value > dem->guard_speed) kind = FAST;
     }
-    if (kind != FINE && Worse(kind, speed, id[i], worst, id)) *worst = (Offender){kind, i, i, speed};
+    if (kind == FINE) {
+      value = Outside(dem->guard_domain, x);
+      if (value > 0) kind = OUTSIDE;
+    }
+    if (kind != FINE && Worse(kind, value, id[i], worst, id)) *worst = (Offender){kind, i, i, value};
   }
   PetscFunctionReturn(0);
 }
@@ -163,6 +175,9 @@ PetscErrorCode PgDemGuard(PgDem dem, PetscInt step, PetscReal time)
                (double)s[9]);
   if (kind == FAST)
     PgRunError(comm, "%s: speed %g m/s is above -dem_guard_speed %g", where, (double)s[6], (double)dem->guard_speed);
+  if (kind == OUTSIDE)
+    PgRunError(comm, "%s: it has left -dem_guard_domain %g,%g,%g,%g", where, (double)dem->guard_domain[0],
+               (double)dem->guard_domain[1], (double)dem->guard_domain[2], (double)dem->guard_domain[3]);
   if (s[7] < 0)
     PgRunError(comm, "%s: overlap with wall %s is %g of the radius, above -dem_guard_overlap %g", where,
                dem->walls[-1 - (PetscInt)s[7]]->wall.name, (double)s[6], (double)dem->guard_overlap);

@@ -84,6 +84,7 @@ PetscErrorCode PgPoreCreate(PgParticles particles, PgNeighbors neighbors, PgFlui
   p->detach_sum       = 0.6;
   p->guard_pressure   = 1.0e9;
   p->guard_speed      = 1.0e3;
+  p->guard_clipped    = 0.5;
   p->grad_p_revision  = -1;
   p->advice           = "";
   for (int s = 0; s < PG_SIDE_COUNT; s++) p->boundary[s] = (PgBoundary){PG_BC_DRAINED, p->p_initial, 0.0};
@@ -226,6 +227,9 @@ PetscErrorCode PgPoreSetFromOptions(PgPore pore)
                          0.999, &pore->n_max, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-pore_guard_pressure", "largest |p| of a run that goes on", "Pa",
                          PG_POSITIVE, 1e300, &pore->guard_pressure, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-pore_guard_clipped",
+                         "largest part of the discs whose porosity is clipped in a step of a run that goes on", "1",
+                         0.0, 1.0, &pore->guard_clipped, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-pore_guard_speed", "largest |u| of a run that goes on", "m/s",
                          PG_POSITIVE, 1e300, &pore->guard_speed, NULL));
   PetscCall(SchemeOptions(pore, PetscOptionsObject));

@@ -53,7 +53,7 @@ struct PgPore_s {
   PgTracking       tracking;
   PetscReal        surface_sum, surface_sum_back; /* kernel sums: becomes surface below, stops being above */
   PetscReal        detach_n, detach_sum;
-  PetscReal        guard_pressure, guard_speed;
+  PetscReal        guard_pressure, guard_speed, guard_clipped;
   PgGuess          guess;
 
   /* fields */

@@ -59,6 +59,7 @@ PetscErrorCode PgSimulationGuard(PgSimulation sim)
 {
   PetscFunctionBeginUser;
   PetscCall(PgDemGuard(sim->dem, sim->step * sim->fluid_every, sim->time));
+  PetscCall(PgDemGuardTimeStep(sim->dem, sim->step * sim->fluid_every, sim->time, sim->dt));
   if (sim->pore) PetscCall(PgPoreGuard(sim->pore, sim->step * sim->fluid_every, sim->time));
   PetscFunctionReturn(0);
 }

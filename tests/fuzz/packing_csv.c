@@ -1,8 +1,8 @@
-/* Fuzz target: the reader of CSV packings. With libFuzzer, after building the library with the same sanitizers:
+/* Fuzz target: the reader of CSV packings. With libFuzzer of clang:
 
-     clang -g -O1 -fsanitize=fuzzer,address,undefined -Iinclude $(pkg-config --cflags PETSc) tests/fuzz/packing_csv.c \
-       build/libporograin.a $(pkg-config --libs PETSc libxxhash) -lhdf5 -lm -o fuzz_packing_csv
-     ./fuzz_packing_csv -max_total_time=60 tests/fuzz/corpus/packing_csv
+     OMPI_CC=clang mpicc -g -O1 -fsanitize=fuzzer,address,undefined -Iinclude $(pkg-config --cflags PETSc hdf5-openmpi) \
+       tests/fuzz/packing_csv.c src/io/packing_csv.c $(pkg-config --libs PETSc) -lm -o fuzz_packing_csv
+     mkdir found && ./fuzz_packing_csv -max_total_time=60 found tests/fuzz/corpus/packing_csv
 
    The first byte chooses how the rest is cut into pieces. Whatever the text: discs and refusal do not depend on the
    pieces, every disc is one that can be used, and the reader ends. */

@@ -16,8 +16,10 @@ check() {
   shift 3
   mkdir "$folder"
   cd "$folder"
-  if [[ " $* " == *" -output"* ]]; then arguments=("$@"); else arguments=(-output run.h5 "$@"); fi
-  run $ranks "$POROGRAIN" "${arguments[@]}" >"$log" 2>&1 </dev/null || got=$?
+  # small, and not for ever: what is accepted by mistake runs to its end
+  arguments=(-panel_columns 4 "$@")
+  if [[ " $* " != *" -output"* ]]; then arguments=(-output run.h5 "${arguments[@]}"); fi
+  run $ranks timeout 30 "$POROGRAIN" "${arguments[@]}" >"$log" 2>&1 </dev/null || got=$?
   {
     [ "$got" -eq "$status" ] || echo "exit status $got, expected $status"
     grep -Eq -- "^porograin: error: .*$pattern" "$log" || echo "no message like '$pattern'"

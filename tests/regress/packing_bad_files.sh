@@ -20,7 +20,7 @@ refused() {
       cat expect_error.out >&2
       fail "more than a message on $n ranks: $file"
     fi
-    [ ! -e result.h5 ] && [ ! -e export.csv ] && [ ! -e result.csv ] || fail "something was written: $file"
+    if [ -e result.h5 ] || [ -e export.csv ] || [ -e result.csv ]; then fail "something was written: $file"; fi
   done
   awk -v file="$file" -v status="$status" 'sub(/^porograin: error: /, "") { print "| `" file "` | " status " | " $0 " |" }' \
     expect_error.out >>bad_files.md

@@ -34,8 +34,8 @@ for n in 1 2 4; do
     -end_time 1e-8 | sed -n '2,5p' >report$n
   cmp report1 "report$n" || fail "other findings on $n ranks"
 done
-# 20 in a row (19 of 20 rows sqrt(3)/2 as high), closed in x: 20 rows of 19, and 20 discs more in the last two
-expect_match '^  [0-9]+ pairs touch; largest overlap' report1
+# 21 rows of 19, closed in x, and one disc more: 19 in each row, 38 between two rows, 2 of the last disc.
+expect_match '^  1161 pairs touch; largest overlap' report1
 # shellcheck disable=SC2086
 "$POROGRAIN" $random -packing_seed 12 -end_time 1e-7 -packing_export other.csv >other.out
 ! cmp -s random1.csv other.csv || fail 'another seed makes the same packing'

@@ -43,6 +43,7 @@ static PetscBool SamePackings(const PgPacking *a, const PgPacking *b)
   if (a->global != b->global || a->start != b->start || a->count != b->count || a->periodic != b->periodic ||
       a->low != b->low || a->high != b->high)
     return PETSC_FALSE;
+  if (!n) return PETSC_TRUE;
   return (PetscBool)(!memcmp(a->position, b->position, 2 * n) && !memcmp(a->velocity, b->velocity, 2 * n) &&
                      !memcmp(a->radius, b->radius, n));
 }

@@ -59,7 +59,7 @@ static void Hydrostatic(void **state)
                 "rest of the motion e^-20");
     (void)snprintf(name, sizeof name, "total load of the plate: submerged weight of all grains, %s", fluids[fluid]);
     VerifyValue("column_hydrostatic", name, weight * ROWS, total, 0.0, 1e-6, "rest of the motion e^-20");
-    (void)snprintf(name, sizeof name, "largest |u| [m/s], %s", fluids[fluid]);
+    (void)snprintf(name, sizeof name, "largest velocity component of the water [m/s], %s", fluids[fluid]);
     VerifyValue("column_hydrostatic", name, 0.0, LargestSpeed(&w), 1.0, 1e-7, "rest of the motion e^-20");
     WaterEnd(&w);
   }
@@ -69,8 +69,8 @@ static void Hydrostatic(void **state)
              "corrected" WATER_SOLVER);
   WaterRun(&w, 5e-3);
   /* the solver's tolerance for a right-hand side of zero, 1e-7 Pa over a row, times dt/rho_f and 50 steps */
-  VerifyValue("column_hydrostatic", "water in a held bed: largest |u| [m/s] after 50 steps", 0.0, LargestSpeed(&w), 1.0,
-              1e-9, "solver 1e-7 Pa");
+  VerifyValue("column_hydrostatic", "water in a held bed: largest velocity component of the water [m/s] after 50 steps",
+              0.0, LargestSpeed(&w), 1.0, 1e-9, "solver 1e-7 Pa");
   WaterEnd(&w);
 }
 
