@@ -1,5 +1,4 @@
 # The dry panel against LAMMPS: frictional contacts with history, no rolling resistance, no damping, smooth plates.
-# preset: long
 # timeout: 300
 # processors: 2
 #
@@ -12,7 +11,7 @@
 
 if ! command -v lmp >/dev/null 2>&1; then
   echo "SKIP: LAMMPS (lmp) is not installed"
-  exit 0
+  exit 77
 fi
 
 columns=25
