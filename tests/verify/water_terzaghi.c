@@ -1,5 +1,4 @@
 /* ranks: 1 2 */
-/* preset: long */
 /* Consolidation against Terzaghi's series (case column_terzaghi) in both schemes, with orders in the spacing and in the
    step; undrained response (case undrained). */
 #include "water.h"
