@@ -1,5 +1,6 @@
 /* Systems from files of -pressure_dump: A, b and x one after the other, PETSc binary. What PETSc does not store, that
    A is symmetric and that the constant is in its null space, is found by trying. */
+#include "dumpfile.h"
 #include "studyimpl.h"
 
 /* Two vectors without any symmetry tell A from its transpose. */
@@ -76,7 +77,11 @@ static PetscErrorCode Read(PgSystem *s, const char file[])
   PetscViewer viewer;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscViewerBinaryOpen(s->comm, file, FILE_MODE_READ, &viewer));
+  PetscCall(PetscViewerCreate(s->comm, &viewer));
+  PetscCall(PetscViewerSetType(viewer, PETSCVIEWERBINARY));
+  PetscCall(PetscViewerBinarySkipInfo(viewer)); /* options in a file beside it are not part of the system */
+  PetscCall(PetscViewerFileSetMode(viewer, FILE_MODE_READ));
+  PetscCall(PetscViewerFileSetName(viewer, file));
   PetscCall(MatCreate(s->comm, &s->A));
   PetscCall(MatSetType(s->A, MATAIJ));
   PetscCall(MatLoad(s->A, viewer));
@@ -87,26 +92,32 @@ static PetscErrorCode Read(PgSystem *s, const char file[])
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgSystemLoad(PgSystem *s, const char file[], const PgSystemChoices *choices)
+/* On rank 0, and its verdict for all. */
+static PetscErrorCode Check(MPI_Comm comm, const char file[])
 {
-  PgTrouble      trouble;
-  PetscErrorCode code;
-  PetscBool      there;
+  PetscMPIInt rank, refused = 0;
+  char        reason[256] = "";
 
   PetscFunctionBeginUser;
-  PetscCall(PetscTestFile(file, 'r', &there));
-  if (!there) {
-    PetscCall(PgReport(s->comm, "option -study_load: cannot read %s", file));
-    return PETSC_ERR_FILE_OPEN;
-  }
-  PetscCall(PgTroubleBegin(&trouble));
-  code = Read(s, file);
-  PetscCall(PgTroubleEnd(s->comm, &code));
-  if (code) {
-    PetscCall(PgReport(s->comm, "option -study_load: %s is not a system written by -pressure_dump (%s)", file,
-                       trouble.message));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (!rank) PgDumpFileCheck(file, reason, sizeof reason);
+  if (reason[0]) refused = 1;
+  PetscCallMPI(MPI_Bcast(&refused, 1, MPI_INT, 0, comm));
+  if (refused) {
+    PetscCall(PgReport(comm, "option -study_load: '%s': %s", file, reason));
     return PETSC_ERR_FILE_READ;
   }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSystemLoad(PgSystem *s, const char file[], const PgSystemChoices *choices)
+{
+  PetscErrorCode err;
+
+  PetscFunctionBeginUser;
+  err = Check(s->comm, file);
+  if (err) PetscFunctionReturn(err);
+  PetscCall(Read(s, file));
   s->reference_name = "the solution in the file";
   PetscCall(PetscStrncpy(s->name, file, sizeof s->name));
   PetscCall(Describe(s->A));

@@ -32,8 +32,8 @@ try 2 'contradict each other' -study_load x.petsc
 try 2 "'nullspace' is not one of" -study_trap nullspace
 try 4 'cannot write nowhere/x.h5' -study_output nowhere/x
 try 2 "'x' is not a whole number" -study_sizes 200,x
-expect_error 4 'cannot read x.petsc' "$POROGRAIN_STUDY" -study_load x.petsc -study_solvers list.txt
-expect_error 4 'list.txt is not a system' "$POROGRAIN_STUDY" -study_load list.txt -study_solvers list.txt
+expect_error 4 "'x.petsc': No such file" "$POROGRAIN_STUDY" -study_load x.petsc -study_solvers list.txt
+expect_error 4 "'list.txt': it is not a system .*matrix: it does not begin like" "$POROGRAIN_STUDY" -study_load list.txt -study_solvers list.txt
 expect_error 4 'cannot read none.txt' "$POROGRAIN_STUDY" -study_solvers none.txt
 expect_error 2 "'solver' is not one of .*did you mean 'solvers'" "$POROGRAIN_STUDY" -study solver
 expect_error 0 '-study_mms_levels' "$POROGRAIN_STUDY" -help
