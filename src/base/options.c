@@ -208,8 +208,8 @@ static PetscInt Distance(const char *a, const char *b)
   PetscInt d[MAX + 1][MAX + 1];
   size_t   m = 0, n = 0;
 
-  while (a[m] && m < MAX) m++;
-  while (b[n] && n < MAX) n++;
+  while (m < MAX && a[m]) m++;
+  while (n < MAX && b[n]) n++;
   for (size_t i = 0; i <= m; i++) d[i][0] = (PetscInt)i;
   for (size_t j = 0; j <= n; j++) d[0][j] = (PetscInt)j;
   for (size_t i = 1; i <= m; i++) {

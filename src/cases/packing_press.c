@@ -196,9 +196,10 @@ static PetscErrorCode Grow(Press *press, PetscReal target)
   PetscCall(Steps(press, 300));
   press->dt *= 10;
   PetscCall(PgDemSetDamping(press->dem, 0, 0.005));
-  for (; scale < 1; scale *= growth) {
+  while (scale < 1) {
     PetscCall(SetScale(press, scale));
     PetscCall(Steps(press, 60));
+    scale *= growth;
   }
   PetscCall(SetScale(press, 1.0));
   PetscFunctionReturn(0);

@@ -110,7 +110,7 @@ static void CheckCounts(PgHdf *hdf, const char path[], PetscInt start, PetscInt 
 
   for (PetscInt i = 0; i < count && !hdf->failed; i++) {
     if (records[i] >= 0 && records[i] <= MOST_RECORDS) continue;
-    (void)snprintf(reason, sizeof reason, "disc %lld has %g records", (long long)(start + i), (double)records[i]);
+    (void)snprintf(reason, sizeof reason, "disc %lld has %g records", (long long)start + i, (double)records[i]);
     PgHdfFail(hdf, "use dataset", path, reason);
   }
 }

@@ -221,7 +221,7 @@ void PgCheckpointCheckFinite(PgHdf *hdf, const char path[], PetscInt start, Pets
   if (hdf->failed) return;
   for (PetscInt i = 0; i < rows * columns; i++) {
     if (isfinite(value[i])) continue;
-    (void)snprintf(reason, sizeof reason, "row %lld is not finite (%g)", (long long)(start + i / columns),
+    (void)snprintf(reason, sizeof reason, "row %lld is not finite (%g)", (long long)start + i / columns,
                    (double)value[i]);
     PgHdfFail(hdf, "use dataset", path, reason);
     return;

@@ -234,8 +234,8 @@ static void CheckRows(PgPackingSource *source, PetscInt rows, const PetscReal di
     const int k   = PgPackingCheckDisc(disc + PG_PACKING_VALUES * i, reason, sizeof reason);
     const int set = k >= PG_PACKING_VX ? VELOCITY : (k == PG_PACKING_R ? RADIUS : POSITION);
     if (k < 0) continue;
-    PgPackingSourceFail(source, PETSC_ERR_USER_INPUT, "dataset '%s', row %lld: %s", f->path[set],
-                        (long long)(f->row + i), reason);
+    PgPackingSourceFail(source, PETSC_ERR_USER_INPUT, "dataset '%s', row %lld: %s", f->path[set], (long long)f->row + i,
+                        reason);
     return;
   }
 }

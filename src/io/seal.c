@@ -133,9 +133,9 @@ static const char *ReadFooter(int descriptor, const char kind[8], unsigned char 
 
 static const char *Verify(int descriptor, const char kind[8], PetscBool whole, PgSealInfo *info)
 {
-  unsigned char footer[FOOTER];
-  uint64_t      hash   = 0;
-  const char   *reason = ReadFooter(descriptor, kind, footer);
+  unsigned char footer[FOOTER] = {0};
+  uint64_t      hash           = 0;
+  const char   *reason         = ReadFooter(descriptor, kind, footer);
 
   if (reason) return reason;
   info->sealed = GetNumber(footer + 8);

@@ -36,7 +36,7 @@ static PetscErrorCode GrowInts(size_t held, size_t size, PetscInt **array)
 PetscErrorCode PgParticlesReserve(PgParticles particles, PetscInt discs)
 {
   const PetscInt capacity = Grown(particles->capacity, discs);
-  const size_t   held     = (size_t)(particles->owned + particles->ghosts);
+  const size_t   held     = (size_t)particles->owned + (size_t)particles->ghosts;
 
   PetscFunctionBeginUser;
   if (capacity == particles->capacity) PetscFunctionReturn(0);

@@ -53,8 +53,8 @@ static PetscErrorCode WriteLoad(PgPlot plot, const PgPlotSource *source, PetscBo
 
 PetscErrorCode PgPlotLoads(PgPlot plot)
 {
-  PetscBool written[PG_PLOT_SOURCES];
-  PetscInt  curves = 0;
+  PetscBool written[PG_PLOT_SOURCES] = {PETSC_FALSE};
+  PetscInt  curves                   = 0;
   PgScript  script;
   char      quoted[300];
 

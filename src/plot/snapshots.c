@@ -236,7 +236,8 @@ static void Place(FILE *file, PetscInt cell, PetscInt columns, PetscInt rows, co
 {
   const PetscReal cw = pixels[0] + LEFT + RIGHT, ch = pixels[1] + ABOVE + BELOW;
   const PetscReal width = cw * (PetscReal)columns, height = ch * (PetscReal)rows + HEAD;
-  const PetscReal left = cw * (PetscReal)(cell % columns) + LEFT, top = HEAD + ch * (PetscReal)(cell / columns) + ABOVE;
+  const PetscInt  row = cell / columns, column = cell % columns;
+  const PetscReal left = cw * (PetscReal)column + LEFT, top = HEAD + ch * (PetscReal)row + ABOVE;
   const PetscReal bottom = 1.0 - (top + pixels[1]) / height;
 
   (void)fprintf(file,

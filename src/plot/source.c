@@ -48,7 +48,7 @@ static void Name(PgPlotSource *source)
   (void)snprintf(source->label, sizeof source->label, "%.120s", slash ? slash + 1 : source->file);
   n = strlen(source->label);
   if (n > 3 && !strcmp(source->label + n - 3, ".h5")) source->label[n - 3] = '\0';
-  (void)strcpy(source->stem, source->label);
+  (void)snprintf(source->stem, sizeof source->stem, "%s", source->label);
   for (char *c = source->stem; *c; c++)
     if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-", *c) ||
         (c == source->stem && (*c == '.' || *c == '-')))

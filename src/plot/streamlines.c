@@ -205,9 +205,9 @@ PetscErrorCode PgPlotStreamlines(const PgPlotGrid *grid, PetscReal separation, P
   PetscCall(Begin(grid, separation, &t));
   /* The middle first; then what no line has reached, row by row. */
   for (PetscInt k = -1; k < grid->nx * grid->ny; k++) {
-    const PetscInt  node    = k < 0 ? (grid->ny / 2) * grid->nx + grid->nx / 2 : k;
-    const PetscReal seed[2] = {grid->x0 + (PetscReal)(node % grid->nx) * grid->step,
-                               grid->y0 + (PetscReal)(node / grid->nx) * grid->step};
+    const PetscInt  node = k < 0 ? (grid->ny / 2) * grid->nx + grid->nx / 2 : k;
+    const PetscInt  row = node / grid->nx, column = node % grid->nx;
+    const PetscReal seed[2] = {grid->x0 + (PetscReal)column * grid->step, grid->y0 + (PetscReal)row * grid->step};
     PetscReal       d[2];
     if (!Direction(&t, seed, 1.0, d) || !IsFree(&t, seed, t.separation)) continue;
     PetscCall(Draw(&t, seed, &accepted));

@@ -95,7 +95,9 @@ static PetscErrorCode FindPlaces(PgPressure q, PetscInt start, const PetscInt in
     for (PetscInt k = q->ptr[a]; k < q->ptr[a + 1]; k++) {
       const PetscInt  column = index[q->col[k]];
       const PetscBool mine   = (PetscBool)(column >= start && column < start + q->owned);
-      const PetscInt  at     = mine ? Find(ia, ja, a, column, start, NULL) : Find(oia, oja, a, column, 0, columns);
+      const PetscInt  at     = mine  ? Find(ia, ja, a, column, start, NULL)
+                               : oia ? Find(oia, oja, a, column, 0, columns)
+                                     : -1;
       PetscCheck(at >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "no column %" PetscInt_FMT " in row %" PetscInt_FMT, column,
                  start + a);
       q->entry_at[k] = mine ? at : ~at;
