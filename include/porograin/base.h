@@ -87,6 +87,20 @@ PETSC_EXTERN PetscErrorCode PgOptionsCheckUnused(MPI_Comm comm, PetscErrorCode (
 /* Writes name, default, unit, text of every option met so far as a Markdown table. Collective. */
 PETSC_EXTERN PetscErrorCode PgOptionsWriteTable(MPI_Comm comm, const char file[]);
 
+/* ---- a line of the terminal that is written over ---- */
+
+/* Whether somebody watches standard output: it is a terminal that can move its cursor, and no mpiexec or the like
+   stands before it. */
+PETSC_EXTERN PetscBool PgTerminalIsWatched(void);
+/* Columns of the terminal; 80 when there is none. */
+PETSC_EXTERN int PgTerminalWidth(void);
+/* Shows `text` (one line, no wider than the terminal) in the place of the text before, until something else is printed
+   through PETSc or PgReport(), which takes its place. For rank 0. */
+PETSC_EXTERN void PgTerminalShow(const char text[]);
+PETSC_EXTERN void PgTerminalClear(void);
+/* Takes the line away for good; PgFinalize() does it too. */
+PETSC_EXTERN void PgTerminalEnd(void);
+
 /* ---- sums over all discs ---- */
 
 /* A sum that is exact, hence the same for any order of the terms and any number of ranks; up to 2^30

@@ -61,6 +61,13 @@ PETSC_EXTERN PetscErrorCode PgPressureSolve(PgPressure pressure, const PetscReal
 PETSC_EXTERN PetscErrorCode PgPressureSetUpSolver(PgPressure pressure);
 /* Name for failed systems, default porograin-failed.petsc. */
 PETSC_EXTERN PetscErrorCode PgPressureSetFailureFile(PgPressure pressure, const char file[]);
+/* What the solves of this program have taken so far. */
+typedef struct {
+  PetscInt   solves, most; /* most: iterations or sweeps of one solve */
+  PetscInt64 iterations;   /* of all */
+  PetscInt   dumps;        /* systems written to -pressure_dump */
+} PgPressureWork;
+PETSC_EXTERN PetscErrorCode PgPressureGetWork(PgPressure pressure, PgPressureWork *work);
 /* Number of matrix patterns made, values filled, preconditioners built so far. */
 PETSC_EXTERN PetscErrorCode PgPressureGetCounts(PgPressure pressure, PetscInt *patterns, PetscInt *fills,
                                                 PetscInt *preconditioners);

@@ -5,3 +5,4 @@
 
 PETSC_INTERN PetscErrorCode PgStagesRegister(void);
 PETSC_INTERN void           PgOptionsForget(void);
+PETSC_INTERN void           PgTerminalLookAround(void);

@@ -9,6 +9,7 @@ static int       status_without_error = 0;
 
 static void PrintError(const char *message)
 {
+  PgTerminalClear();
   (void)fflush(stdout);
   (void)fprintf(stderr, "porograin: error: %s\n", message);
   (void)fflush(stderr);
@@ -58,6 +59,7 @@ PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...)
 PetscErrorCode PgInitialize(int *argc, char ***argv, const char about[])
 {
   PetscFunctionBeginUser;
+  PgTerminalLookAround();
   PetscCall(PetscInitialize(argc, argv, NULL, about));
   PetscCall(PetscPushErrorHandler(HandleError, NULL));
   /* Output into a closed pipe is reported by the write that failed, not by a signal with pages of text. */
@@ -118,6 +120,7 @@ int PgFinalize(PetscErrorCode err)
   PetscMPIInt size   = 1;
 
   PgOptionsForget();
+  PgTerminalEnd();
   (void)PetscPopErrorHandler();
   (void)MPI_Comm_size(PETSC_COMM_WORLD, &size);
   /* An error that only some ranks have met leaves the others waiting in a collective call. */

@@ -80,5 +80,6 @@ PetscErrorCode PgPressureDump(PgPressure q)
     PetscCall(PgReport(q->comm, "option -pressure_dump: cannot write %s", name));
     return PETSC_ERR_FILE_OPEN;
   }
+  q->work.dumps++;
   PetscFunctionReturn(0);
 }

@@ -226,6 +226,13 @@ PetscErrorCode PgPressureSetFailureFile(PgPressure q, const char file[])
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgPressureGetWork(PgPressure q, PgPressureWork *work)
+{
+  PetscFunctionBeginUser;
+  *work = q->work;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPressureGetCounts(PgPressure q, PetscInt *patterns, PetscInt *fills, PetscInt *preconditioners)
 {
   PetscFunctionBeginUser;
@@ -307,6 +314,9 @@ static PetscErrorCode Solve(PgPressure q, const PetscReal Z[], PgPressureStats *
   PetscCall((*q->ops.solve)(q, stats));
   if (q->dump[0] && (q->dump_every ? q->solves % q->dump_every == 0 : q->solves == 0)) PetscCall(PgPressureDump(q));
   q->solves++;
+  q->work.solves++;
+  q->work.iterations += stats->iterations;
+  q->work.most = PetscMax(q->work.most, stats->iterations);
   PetscFunctionReturn(0);
 }
 

@@ -49,7 +49,8 @@ struct PgPressure_s {
   PetscBool       singular, symmetric;
   PetscInt        neighbors_revision, particles_revision; /* of the weights */
   PetscInt       *row_id, known, known_size; /* ids of the owned discs when last compared, their number, capacity */
-  PetscInt        solves;
+  PetscInt        solves;                    /* since the start of the run, also before a restart */
+  PgPressureWork  work;
 
   /* the matrix */
   Mat       A;

@@ -1,4 +1,4 @@
-/* History rows, snapshots, progress lines and the summary. */
+/* History rows and snapshots, and when each is due. */
 #include "simulationimpl.h"
 
 const PgColumn PgHistoryColumns[COLUMN_COUNT] = {
@@ -75,10 +75,18 @@ PetscErrorCode PgMonitorFillRow(PgSimulation sim)
   PetscCall(PgMonitorGetBuilds(sim, &builds));
   row[COLUMN_LIST_BUILDS] = (PetscReal)builds;
   PetscCall(PgColumnsFill(sim));
-  if (row[COLUMN_LOAD] > sim->peak_load) {
-    sim->peak_load         = row[COLUMN_LOAD];
-    sim->peak_displacement = row[COLUMN_DISPLACEMENT];
+  PetscFunctionReturn(0);
+}
+
+/* The peak is that of the history, however the run tells where it is. */
+static PetscErrorCode AddRow(PgSimulation sim)
+{
+  PetscFunctionBeginUser;
+  if (sim->row[COLUMN_LOAD] > sim->peak_load) {
+    sim->peak_load         = sim->row[COLUMN_LOAD];
+    sim->peak_displacement = sim->row[COLUMN_DISPLACEMENT];
   }
+  if (sim->output) PetscCall(PgOutputHistory(sim->output, sim->row));
   PetscFunctionReturn(0);
 }
 
@@ -101,43 +109,17 @@ PetscErrorCode PgMonitorSnapshot(PgSimulation sim, PgOutput output)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Progress(PgSimulation sim)
-{
-  const PetscReal     *row = sim->row;
-  const PetscLogDouble now = MPI_Wtime(), spent = now - sim->last_progress;
-  const PetscInt       done = sim->step - sim->last_progress_step;
-  PetscInt             global;
-  char                 water[160] = "";
-
-  PetscFunctionBeginUser;
-  PetscCall(PgParticlesGetSizes(sim->particles, NULL, NULL, &global));
-  if (sim->pore)
-    PetscCall(PetscSNPrintf(water, sizeof water, "  p %.4g..%.4g Pa  its %d  res %.1e",
-                            (double)row[COLUMN_PRESSURE_MIN], (double)row[COLUMN_PRESSURE_MAX],
-                            (int)row[COLUMN_PRESSURE_ITERATIONS], (double)row[COLUMN_PRESSURE_RESIDUAL]));
-  PetscCall(PetscPrintf(sim->comm,
-                        "step %8" PetscInt_FMT "  t %.4e s  load %11.4e N/m%s  %.2e disc-steps/s  left %.0f s\n",
-                        sim->step * sim->fluid_every, (double)sim->time, (double)row[COLUMN_LOAD], water,
-                        spent > 0 ? (double)(global * (PetscReal)(done * sim->fluid_every) / spent) : 0.0,
-                        done > 0 ? (double)(spent / (PetscReal)done * (PetscReal)(sim->steps - sim->step)) : 0.0));
-  (void)fflush(stdout);
-  sim->last_progress      = now;
-  sim->last_progress_step = sim->step;
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode PgMonitorStart(PgSimulation sim)
 {
   PetscFunctionBeginUser;
-  sim->started = sim->last_progress = MPI_Wtime();
-  sim->last_progress_step           = sim->step;
+  PetscCall(PgProgressStart(sim));
   if (sim->restart_file[0]) {
     PetscCall(PetscPrintf(sim->comm, "continued from %s, step %" PetscInt_FMT ", t = %.6e s\n", sim->restart_file,
                           sim->step * sim->fluid_every, (double)sim->time));
     PetscFunctionReturn(0); /* what belongs to this step was written before */
   }
   PetscCall(PgMonitorFillRow(sim));
-  if (sim->output) PetscCall(PgOutputHistory(sim->output, sim->row));
+  PetscCall(AddRow(sim));
   if (sim->output_every) PetscCall(PgMonitorSnapshot(sim, sim->output));
   PetscFunctionReturn(0);
 }
@@ -147,38 +129,20 @@ PetscErrorCode PgMonitorStep(PgSimulation sim)
   const PetscBool history = PgMonitorDue(sim, sim->history_every), progress = PgMonitorDue(sim, sim->progress_every);
 
   PetscFunctionBeginUser;
-  if (history || progress) {
+  if (history || progress || sim->step == sim->steps) {
     PetscCall(PgMonitorFillRow(sim));
-    if (history && sim->output) PetscCall(PgOutputHistory(sim->output, sim->row));
-    if (progress) PetscCall(Progress(sim));
+    if (history) PetscCall(AddRow(sim));
+    if (progress) PetscCall(PgProgressLine(sim));
   }
   if (PgMonitorDue(sim, sim->output_every)) PetscCall(PgMonitorSnapshot(sim, sim->output));
+  if (sim->progress == PG_PROGRESS_BAR) PetscCall(PgProgressBar(sim));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgMonitorEnd(PgSimulation sim)
 {
-  const PetscLogDouble spent = MPI_Wtime() - sim->started;
-  PetscInt             global;
-
   PetscFunctionBeginUser;
-  PetscCall(PgParticlesGetSizes(sim->particles, NULL, NULL, &global));
-  if (sim->setup.load_plate >= 0 || sim->setup.load_wall >= 0)
-    PetscCall(PetscPrintf(sim->comm, "peak load %.4e N/m at a displacement of %.4e m, load at the end %.4e N/m\n",
-                          (double)sim->peak_load, (double)sim->peak_displacement, (double)sim->row[COLUMN_LOAD]));
-  PetscCall(PetscPrintf(sim->comm, "%.2f s for %" PetscInt_FMT " steps of %" PetscInt_FMT " discs, %.3e disc-steps/s\n",
-                        spent, sim->step * sim->fluid_every, global,
-                        spent > 0 ? (double)global * (double)(sim->step * sim->fluid_every) / spent : 0.0));
-  for (int s = PG_STAGE_LISTS; s < PG_STAGE_COUNT; s++) {
-    const PetscLogDouble seconds = PgStageSeconds((PgStage)s);
-    if (seconds > 0.0)
-      PetscCall(PetscPrintf(sim->comm, "  %-10s %8.2f s  %5.1f %%\n", PgStageName((PgStage)s), seconds,
-                            100.0 * seconds / PetscMax(spent, 1e-9)));
-  }
-  if (sim->output) {
-    PetscCall(PgOutputFinish(sim->output));
-    PetscCall(PetscPrintf(sim->comm, "results in %s, with .xmf for ParaView and .csv for the history beside it\n",
-                          sim->output_file));
-  }
+  if (sim->output) PetscCall(PgOutputFinish(sim->output));
+  PetscCall(PgProgressSummary(sim));
   PetscFunctionReturn(0);
 }

@@ -86,6 +86,7 @@ PetscErrorCode PgSimulationCheckpoint(PgSimulation sim)
   PetscCall(PgStateDestroy(&state));
   PetscCall(err);
   PetscCall(PgStagePop());
+  sim->checkpoints++;
   sim->checkpoint_step = sim->step;
   sim->checkpoint_cost = MPI_Wtime() - start;
   PetscFunctionReturn(0);

@@ -48,9 +48,7 @@ static PetscErrorCode TimeOptions(PgSimulation sim, PetscOptionItems *PetscOptio
   PetscCall(PgOptionReal(PetscOptionsObject, "-history_every",
                          "time between history rows; default a thousandth of the run", "s", 0.0, 1e9,
                          &sim->history_time, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-progress_every",
-                         "time between progress lines; default a twentieth of the run", "s", 0.0, 1e9,
-                         &sim->progress_time, NULL));
+  PetscCall(PgProgressSetFromOptions(sim, PetscOptionsObject));
   PetscCall(PgOptionInt(PetscOptionsObject, "-guard_every",
                         "steps of the discs between checks for a run that has gone wrong", 1, 1000000,
                         &sim->guard_every, NULL));

@@ -26,6 +26,8 @@ typedef enum {
 } PgColumnIndex;
 PETSC_INTERN const PgColumn PgHistoryColumns[COLUMN_COUNT];
 
+typedef enum { PG_PROGRESS_AUTO, PG_PROGRESS_BAR, PG_PROGRESS_LINES, PG_PROGRESS_NONE } PgProgress;
+
 struct PgSimulation_s {
   MPI_Comm    comm;
   PgParticles particles;
@@ -57,9 +59,11 @@ struct PgSimulation_s {
   PgColumn      *column;
   PetscReal     *row; /* of the present step */
   PetscReal      peak_load, peak_displacement;
+  PgProgress     progress; /* the same on all ranks */
   PetscLogDouble started, last_progress;
-  PetscInt       last_progress_step;
-  PetscReal     *effective, *volumetric; /* strain by id, scratch */
+  PetscInt       first_step, last_progress_step; /* of this program; of the last line */
+  PetscInt       checkpoints;                    /* written by this program */
+  PetscReal     *effective, *volumetric;         /* strain by id, scratch */
 
   /* restart and end */
   char           case_name[64], fluid_name[16]; /* as checkpoints know them */
@@ -119,5 +123,15 @@ PETSC_INTERN PetscErrorCode PgMonitorSnapshot(PgSimulation sim, PgOutput output)
 /* List builds since the start of the run, also before a restart. */
 PETSC_INTERN PetscErrorCode PgMonitorGetBuilds(PgSimulation sim, PetscInt *builds);
 PETSC_INTERN PetscErrorCode PgSimulationGuard(PgSimulation sim);
+
+/* progress.c: how far the run is, as lines or as a bar, and the summary at its end */
+/* Reads -progress and -progress_every. */
+PETSC_INTERN PetscErrorCode PgProgressSetFromOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject);
+PETSC_INTERN PetscErrorCode PgProgressStart(PgSimulation sim);
+/* A line from the row of the present step. */
+PETSC_INTERN PetscErrorCode PgProgressLine(PgSimulation sim);
+/* The bar, when it is its turn; called after every step. Not collective. */
+PETSC_INTERN PetscErrorCode PgProgressBar(PgSimulation sim);
+PETSC_INTERN PetscErrorCode PgProgressSummary(PgSimulation sim);
 /* Whether the row of the present step goes into the history. */
 PETSC_INTERN PetscBool PgMonitorDue(PgSimulation sim, PetscInt every);

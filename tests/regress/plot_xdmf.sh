@@ -7,10 +7,7 @@ python=
 for candidate in python3 /usr/bin/python3; do
   "$candidate" -c 'from vtkmodules.vtkIOXdmf2 import vtkXdmfReader' 2>/dev/null && python=$candidate && break
 done
-if [ -z "$python" ]; then
-  echo 'skipped: there is no VTK with XDMF for Python (Debian: python3-paraview or python3-vtk9)'
-  exit 0
-fi
+[ -n "$python" ] || skip 'there is no VTK with XDMF for Python (Debian: python3-paraview or python3-vtk9)'
 
 "$POROGRAIN" -options_file "$SOURCE_DIR/options/panel_case1_ns.opts" -panel_columns 10 -panel_rows 21 -panel_displacement 1.236e-4 \
   -output_every 5e-4 -output run.h5 >run.log

@@ -8,6 +8,12 @@ fail() {
   exit 1
 }
 
+# skip REASON: for a test that needs a program which is not here and which porograin itself does not need.
+skip() {
+  printf 'SKIP: %s\n' "$*"
+  exit 77
+}
+
 # run N command...: on N ranks.
 run() {
   local n=$1
