@@ -88,19 +88,11 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
 {
   const Biaxial *c     = (const Biaxial *)context;
   const PetscInt total = c->rows * c->columns - (c->rows / 2 + 1), two = 2 * c->columns - 1;
-  PetscMPIInt    rank, size;
-  PetscInt       first, owned, *id;
+  PetscInt       first, owned;
   PetscReal     *x, *r;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(setup->comm, &rank));
-  PetscCallMPI(MPI_Comm_size(setup->comm, &size));
-  first = (PetscInt)((PetscInt64)total * rank / size);
-  owned = (PetscInt)((PetscInt64)total * (rank + 1) / size) - first;
-  PetscCall(PetscMalloc1(owned, &id));
-  for (PetscInt i = 0; i < owned; i++) id[i] = first + i;
-  PetscCall(PgParticlesSetDiscs(setup->particles, owned, id));
-  PetscCall(PetscFree(id));
+  PetscCall(PgCaseDealDiscs(setup, total, &first, &owned));
   PetscCall(PgParticlesGetArray(setup->particles, PG_POSITION, &x));
   PetscCall(PgParticlesGetArray(setup->particles, PG_RADIUS, &r));
   for (PetscInt i = 0; i < owned; i++) {

@@ -31,6 +31,44 @@ PetscErrorCode PgCaseGetNames(PetscInt *count, const char *const *list[])
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgCaseDealDiscs(PgCaseSetup *setup, PetscInt64 total, PetscInt *first, PetscInt *owned)
+{
+  PetscMPIInt rank, size;
+  PetscInt   *id;
+
+  PetscFunctionBeginUser;
+  PgInputCheck(total < PETSC_MAX_INT / 64, setup->comm, "%lld discs are too many for the integers of this PETSc",
+               (long long)total);
+  PetscCallMPI(MPI_Comm_rank(setup->comm, &rank));
+  PetscCallMPI(MPI_Comm_size(setup->comm, &size));
+  *first = (PetscInt)(total * rank / size);
+  *owned = (PetscInt)(total * (rank + 1) / size) - *first;
+  PetscCall(PetscMalloc1(*owned, &id));
+  for (PetscInt i = 0; i < *owned; i++) id[i] = *first + i;
+  PetscCall(PgParticlesSetDiscs(setup->particles, *owned, id));
+  PetscCall(PetscFree(id));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgCaseGetArrays(const PgCaseSetup *setup, PgCaseArrays *arrays)
+{
+  PgField field;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMemzero(arrays, sizeof *arrays));
+  PetscCall(PgParticlesGetArray(setup->particles, PG_POSITION, &arrays->x));
+  PetscCall(PgParticlesGetArray(setup->particles, PG_VELOCITY, &arrays->v));
+  PetscCall(PgParticlesGetArray(setup->particles, PG_RADIUS, &arrays->radius));
+  PetscCall(PgParticlesFindField(setup->particles, "plate", &field));
+  PetscCall(PgParticlesGetArray(setup->particles, field, &arrays->plate));
+  if (!setup->pore) PetscFunctionReturn(0);
+  PetscCall(PgParticlesFindField(setup->particles, "side", &field));
+  PetscCall(PgParticlesGetArray(setup->particles, field, &arrays->side));
+  PetscCall(PgParticlesFindField(setup->particles, "initial_porosity", &field));
+  PetscCall(PgParticlesGetArray(setup->particles, field, &arrays->porosity));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgCaseFinishDiscs(PgCaseSetup *setup)
 {
   PetscReal *x, *start, *radius, *mass;

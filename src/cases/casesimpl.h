@@ -9,6 +9,18 @@ PETSC_INTERN const PgCaseInfo PgCaseColumnHydrostatic, PgCaseColumnTerzaghi, PgC
 PETSC_INTERN const PgCaseInfo PgCaseDiscCollision, PgCaseDiscOnPlane, PgCaseDiscOnIncline, PgCaseLatticeModulus,
     PgCaseBiaxial;
 
+/* Makes discs with ids [0, total), dealt out evenly: this rank gets `owned` of them from `first` on. Collective. */
+PETSC_INTERN PetscErrorCode PgCaseDealDiscs(PgCaseSetup *setup, PetscInt64 total, PetscInt *first, PetscInt *owned);
+
+/* What a case fills in for the discs of this rank. Addresses last until discs are made or fields added. */
+typedef struct {
+  PetscReal *x, *v, *radius; /* position [m], velocity [m/s], radius [m] */
+  PetscReal *plate;          /* 1 + index of the plate that the disc belongs to, 0: of none [1] */
+  PetscReal *side;           /* bits 1 << PG_SIDE_...; NULL in a dry run [1] */
+  PetscReal *porosity;       /* of a disc at rest; NULL in a dry run [1] */
+} PgCaseArrays;
+PETSC_INTERN PetscErrorCode PgCaseGetArrays(const PgCaseSetup *setup, PgCaseArrays *arrays);
+
 /* Makes a few discs, ids in the order of the table. Collective. */
 typedef struct {
   PetscReal x[2], v[2], spin, radius; /* [m], [m/s], [rad/s], [m] */

@@ -76,24 +76,20 @@ static PetscErrorCode Fill(const Lattice *c, PgCaseSetup *setup, PetscInt first,
 {
   const PetscReal     middle = c->radius * (PetscReal)c->columns;
   PgContactParameters p;
-  PetscReal          *x, *v, *r, *plate, widening;
-  PgField             field;
+  PgCaseArrays        a;
+  PetscReal           widening;
 
   PetscFunctionBeginUser;
   PetscCall(PgDemGetParameters(setup->dem, &p));
   widening = c->sides == SIDES_FREE ? 3 * (p.k_n - p.k_s) / (p.k_n + 3 * p.k_s) : 0;
-  PetscCall(PgParticlesGetArray(setup->particles, PG_POSITION, &x));
-  PetscCall(PgParticlesGetArray(setup->particles, PG_VELOCITY, &v));
-  PetscCall(PgParticlesGetArray(setup->particles, PG_RADIUS, &r));
-  PetscCall(PgParticlesFindField(setup->particles, "plate", &field));
-  PetscCall(PgParticlesGetArray(setup->particles, field, &plate));
+  PetscCall(PgCaseGetArrays(setup, &a));
   for (PetscInt i = 0; i < owned; i++) {
-    const PetscInt row = Locate(c, first + i, &x[2 * i]);
+    const PetscInt row = Locate(c, first + i, &a.x[2 * i]);
 
-    r[i]         = c->radius;
-    v[2 * i]     = widening * c->rate * (x[2 * i] - middle);
-    v[2 * i + 1] = -c->rate * (x[2 * i + 1] - c->radius);
-    plate[i]     = row == 0 ? 1.0 : (row == c->rows - 1 ? 2.0 : 0.0);
+    a.radius[i]    = c->radius;
+    a.v[2 * i]     = widening * c->rate * (a.x[2 * i] - middle);
+    a.v[2 * i + 1] = -c->rate * (a.x[2 * i + 1] - c->radius);
+    a.plate[i]     = row == 0 ? 1.0 : (row == c->rows - 1 ? 2.0 : 0.0);
   }
   PetscFunctionReturn(0);
 }
@@ -103,18 +99,10 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
   const Lattice *c    = (const Lattice *)context;
   const PetscInt less = c->sides == SIDES_FREE, total = c->rows * c->columns - less * (c->rows / 2 + 1);
   const PgPlate  lower = {"lower", -1, 0, -1, PETSC_FALSE}, upper = {"upper", 1, -c->rate * Height(c), -1, PETSC_FALSE};
-  PetscMPIInt    rank, size;
-  PetscInt       first, owned, *id;
+  PetscInt       first, owned;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(setup->comm, &rank));
-  PetscCallMPI(MPI_Comm_size(setup->comm, &size));
-  first = (PetscInt)((PetscInt64)total * rank / size);
-  owned = (PetscInt)((PetscInt64)total * (rank + 1) / size) - first;
-  PetscCall(PetscMalloc1(owned, &id));
-  for (PetscInt i = 0; i < owned; i++) id[i] = first + i;
-  PetscCall(PgParticlesSetDiscs(setup->particles, owned, id));
-  PetscCall(PetscFree(id));
+  PetscCall(PgCaseDealDiscs(setup, total, &first, &owned));
   if (c->sides == SIDES_PERIODIC)
     PetscCall(PgParticlesSetPeriodicX(setup->particles, 0.0, 2.0 * c->radius * (PetscReal)c->columns));
   PetscCall(PgDemAddPlate(setup->dem, &lower, NULL));

@@ -394,36 +394,25 @@ static PetscReal Gap(const PgBox *box, int side, const PetscReal x[2], PetscReal
 static PetscErrorCode PutDiscs(const PackingCase *c, const PgPacking *packing, const PgBox *box, PetscReal mean_radius,
                                const PetscInt plate_index[PG_SIDE_COUNT], PgCaseSetup *setup)
 {
-  PetscReal *x, *v, *radius, *plate, *side = NULL, *porosity = NULL;
-  PgField    field;
+  PgCaseArrays a;
 
   PetscFunctionBeginUser;
-  PetscCall(PgParticlesGetArray(setup->particles, PG_POSITION, &x));
-  PetscCall(PgParticlesGetArray(setup->particles, PG_VELOCITY, &v));
-  PetscCall(PgParticlesGetArray(setup->particles, PG_RADIUS, &radius));
-  PetscCall(PgParticlesFindField(setup->particles, "plate", &field));
-  PetscCall(PgParticlesGetArray(setup->particles, field, &plate));
-  if (setup->pore) {
-    PetscCall(PgParticlesFindField(setup->particles, "side", &field));
-    PetscCall(PgParticlesGetArray(setup->particles, field, &side));
-    PetscCall(PgParticlesFindField(setup->particles, "initial_porosity", &field));
-    PetscCall(PgParticlesGetArray(setup->particles, field, &porosity));
-  }
-  PetscCall(PetscArraycpy(x, packing->position, 2 * packing->count));
-  PetscCall(PetscArraycpy(v, packing->velocity, 2 * packing->count));
-  PetscCall(PetscArraycpy(radius, packing->radius, packing->count));
+  PetscCall(PgCaseGetArrays(setup, &a));
+  PetscCall(PetscArraycpy(a.x, packing->position, 2 * packing->count));
+  PetscCall(PetscArraycpy(a.v, packing->velocity, 2 * packing->count));
+  PetscCall(PetscArraycpy(a.radius, packing->radius, packing->count));
   for (PetscInt i = 0; i < packing->count; i++) {
     unsigned sides = 0;
 
     for (int s = packing->periodic ? PG_SIDE_BOTTOM : PG_SIDE_LEFT; s < PG_SIDE_COUNT; s++) {
-      const PetscReal gap = Gap(box, s, &x[2 * i], radius[i]);
+      const PetscReal gap = Gap(box, s, &a.x[2 * i], a.radius[i]);
       if (gap < c->side_distance * mean_radius) sides |= 1U << s;
       if (plate_index[s] < 0 || gap >= c->plate_distance * mean_radius) continue;
-      plate[i]     = 1.0 + (PetscReal)plate_index[s];
-      v[2 * i + 1] = s == PG_SIDE_TOP ? c->top_velocity : 0.0;
+      a.plate[i]     = 1.0 + (PetscReal)plate_index[s];
+      a.v[2 * i + 1] = s == PG_SIDE_TOP ? c->top_velocity : 0.0;
     }
-    if (side) side[i] = (PetscReal)sides;
-    if (porosity) porosity[i] = c->porosity;
+    if (a.side) a.side[i] = (PetscReal)sides;
+    if (a.porosity) a.porosity[i] = c->porosity;
   }
   PetscFunctionReturn(0);
 }

@@ -60,38 +60,27 @@ static void Locate(const Panel *panel, PetscInt id, PetscInt *row, PetscInt *col
 
 static PetscErrorCode Place(const Panel *panel, PgCaseSetup *setup, PetscInt first, PetscInt owned)
 {
-  PetscReal *x, *v, *radius, *plate, *side = NULL, *porosity = NULL;
-  PgField    field;
+  PgCaseArrays a;
 
   PetscFunctionBeginUser;
-  PetscCall(PgParticlesGetArray(setup->particles, PG_POSITION, &x));
-  PetscCall(PgParticlesGetArray(setup->particles, PG_VELOCITY, &v));
-  PetscCall(PgParticlesGetArray(setup->particles, PG_RADIUS, &radius));
-  PetscCall(PgParticlesFindField(setup->particles, "plate", &field));
-  PetscCall(PgParticlesGetArray(setup->particles, field, &plate));
-  if (setup->pore) {
-    PetscCall(PgParticlesFindField(setup->particles, "side", &field));
-    PetscCall(PgParticlesGetArray(setup->particles, field, &side));
-    PetscCall(PgParticlesFindField(setup->particles, "initial_porosity", &field));
-    PetscCall(PgParticlesGetArray(setup->particles, field, &porosity));
-  }
+  PetscCall(PgCaseGetArrays(setup, &a));
   for (PetscInt i = 0; i < owned; i++) {
     const PetscReal r = panel->radius;
     PetscInt        row, column, length, sides;
     PetscBool       end, cap;
 
     Locate(panel, first + i, &row, &column, &length);
-    end          = (PetscBool)(column == 0 || column == length - 1);
-    cap          = (PetscBool)(row == 0 || row == panel->rows - 1);
-    radius[i]    = r;
-    x[2 * i]     = r * (2.0 * (PetscReal)column + (row % 2 ? 1.0 : 2.0));
-    x[2 * i + 1] = r * (1.0 + PetscSqrtReal(3.0) * (PetscReal)row);
-    plate[i]     = row == 0 ? 1.0 : (row == panel->rows - 1 ? 2.0 : 0.0);
-    v[2 * i + 1] = row == panel->rows - 1 ? -panel->velocity : 0.0;
+    end            = (PetscBool)(column == 0 || column == length - 1);
+    cap            = (PetscBool)(row == 0 || row == panel->rows - 1);
+    a.radius[i]    = r;
+    a.x[2 * i]     = r * (2.0 * (PetscReal)column + (row % 2 ? 1.0 : 2.0));
+    a.x[2 * i + 1] = r * (1.0 + PetscSqrtReal(3.0) * (PetscReal)row);
+    a.plate[i]     = row == 0 ? 1.0 : (row == panel->rows - 1 ? 2.0 : 0.0);
+    a.v[2 * i + 1] = row == panel->rows - 1 ? -panel->velocity : 0.0;
     sides = (column == 0) << PG_SIDE_LEFT | (column == length - 1) << PG_SIDE_RIGHT | (row == 0) << PG_SIDE_BOTTOM |
             (row == panel->rows - 1) << PG_SIDE_TOP;
-    if (side) side[i] = (PetscReal)sides;
-    if (porosity) porosity[i] = end && cap ? porosity_corner : (end || cap ? porosity_edge : porosity_inside);
+    if (a.side) a.side[i] = (PetscReal)sides;
+    if (a.porosity) a.porosity[i] = end && cap ? porosity_corner : (end || cap ? porosity_edge : porosity_inside);
   }
   PetscFunctionReturn(0);
 }
@@ -102,22 +91,14 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
   const PetscInt64 total = Below(panel, panel->rows);
   const PgPlate    lower = {"lower", -1.0, 0.0, -1.0, PETSC_FALSE},
                 upper    = {"upper", 1.0, -panel->velocity, -1.0, PETSC_FALSE};
-  PetscMPIInt rank, size;
-  PetscInt    first, owned, *id, index;
+  PetscInt first, owned, index;
 
   PetscFunctionBeginUser;
   PgInputCheck(total < PETSC_MAX_INT / 64, setup->comm,
                "options -panel_columns %" PetscInt_FMT " -panel_rows %" PetscInt_FMT
                ": %lld discs are too many for the integers of this PETSc",
                panel->columns, panel->rows, (long long)total);
-  PetscCallMPI(MPI_Comm_rank(setup->comm, &rank));
-  PetscCallMPI(MPI_Comm_size(setup->comm, &size));
-  first = (PetscInt)(total * rank / size);
-  owned = (PetscInt)(total * (rank + 1) / size) - first;
-  PetscCall(PetscMalloc1(owned, &id));
-  for (PetscInt i = 0; i < owned; i++) id[i] = first + i;
-  PetscCall(PgParticlesSetDiscs(setup->particles, owned, id));
-  PetscCall(PetscFree(id));
+  PetscCall(PgCaseDealDiscs(setup, total, &first, &owned));
   PetscCall(PgDemAddPlate(setup->dem, &lower, &index));
   PetscCall(PgDemAddPlate(setup->dem, &upper, &setup->load_plate));
   PetscCall(Place(panel, setup, first, owned));
