@@ -96,6 +96,27 @@ PetscErrorCode PgBoundaryUpdate(PgPore pore)
   PetscFunctionReturn(0);
 }
 
+PetscBool PgBoundaryHolds(PgPore pore, const PgPoreArrays *s, PetscInt a, int e)
+{
+  if (s->side[a] == 0.0 || s->detached[a] != 0.0) return PETSC_FALSE;
+  for (int i = 0; i < PG_SIDE_COUNT; i++) {
+    const PgBoundaryKind kind = pore->boundary[i].kind;
+    if (axis[i][e] != 0.0 && OnSide(s->side[a], i) && (kind == PG_BC_IMPERMEABLE || kind == PG_BC_FLUX))
+      return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+PetscReal PgBoundaryFlux(PgPore pore, const PgPoreArrays *s, PetscInt a, int e)
+{
+  PetscReal flux = 0.0;
+
+  for (int i = 0; i < PG_SIDE_COUNT; i++)
+    if (axis[i][e] != 0.0 && OnSide(s->side[a], i) && pore->boundary[i].kind == PG_BC_FLUX)
+      flux = pore->boundary[i].flux;
+  return flux;
+}
+
 PetscErrorCode PgBoundaryVelocity(PgPore pore, const PgPoreArrays *s, PetscReal u[])
 {
   PetscFunctionBeginUser;

@@ -7,6 +7,12 @@ static PetscReal SolidMobility(PgPore pore, PetscInt a, PetscReal dt_f)
   return dt_f / ((1.0 - pore->n_flow[a]) * pore->rho_s);
 }
 
+/* The gradient that moves disc a along axis e: on flux sides w = -k_p dp/de is prescribed. */
+static PetscReal Moving(PgPore pore, const PgPoreArrays *s, PetscInt a, int e, PetscReal n)
+{
+  return PgPoreGradient(pore, s, a, e, -PgBoundaryFlux(pore, s, a, e) / PgPermeability(pore, n, s->radius[a]));
+}
+
 /* Drag n w V/((1 - n) k_p) of Eq. 29 with w/k_p = -grad p; with the pressure gradient -V grad p the sum is
    -V grad p/(1 - n). grad_p is that of the excess over hydrostatic pressure. */
 static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
@@ -24,7 +30,8 @@ static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
       /* the projection takes over the force, but for the vertical one of discs on a plate; or replaces it by the new one */
       const PetscBool kick = (PetscBool)(projected && increment && PgPoreIsFree(&s, a));
       const PetscBool here = (PetscBool)(!projected || kick || (s.plate[a] != 0.0 && i == 1));
-      PetscReal       f    = here ? -V_p * pore->grad_p[2 * a + i] * (n + (pressure ? 1.0 - n : 0.0)) / (1.0 - n) : 0.0;
+      const PetscReal g    = kick ? Moving(pore, &s, a, i, n) : pore->grad_p[2 * a + i];
+      PetscReal       f    = here ? -V_p * g * (n + (pressure ? 1.0 - n : 0.0)) / (1.0 - n) : 0.0;
       s.kick[2 * a + i]    = kick ? f * dt_f / (V_p * pore->rho_s) : 0.0;
       if (pressure) f -= V_p * pore->rho_f * pore->gravity[i];
       s.fluid_force[2 * a + i] = s.detached[a] != 0.0 ? 0.0 : f;
@@ -91,8 +98,9 @@ static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
     const PetscReal k_p      = PgPermeability(pore, pore->n_flow[a], s.radius[a]);
     const PetscReal mobility = PgPoreIsProjected(pore) && PgPoreIsFree(&s, a) ? SolidMobility(pore, a, dt_f) : 0.0;
 
-    for (PetscInt i = 2 * a; i < 2 * a + 2; i++) {
-      if (mobility > 0.0) s.v[i] -= s.kick[i] + mobility * pore->grad_p[i];
+    for (int e = 0; e < 2; e++) {
+      const PetscInt i = 2 * a + e;
+      if (mobility > 0.0) s.v[i] -= s.kick[i] + mobility * Moving(pore, &s, a, e, pore->n_flow[a]);
       s.u[i] = s.detached[a] != 0.0 ? s.v[i] : s.v[i] - k_p * pore->grad_p[i] / pore->n_flow[a];
     }
   }

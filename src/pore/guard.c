@@ -38,10 +38,10 @@ static PetscErrorCode GuardValues(PgPore pore, PetscInt step, PetscReal time)
   PgRunError(comm,
              "the water has blown up at step %" PetscInt_FMT ", t = %g s: disc %" PetscInt_FMT
              " at (%g, %g) m has pressure %g Pa, "
-             "velocity (%g, %g) m/s, porosity %g (bounds: -pore_guard_pressure %g Pa, -pore_guard_speed %g m/s)%s",
+             "velocity (%g, %g) m/s, porosity %g (bounds: -pore_guard_pressure %g Pa, -pore_guard_speed %g m/s)%s%s",
              step, (double)time, (PetscInt)where[0], (double)where[1], (double)where[2], (double)where[3],
              (double)where[4], (double)where[5], (double)where[6], (double)pore->guard_pressure,
-             (double)pore->guard_speed, pore->advice);
+             (double)pore->guard_speed, pore->advice, pore->side_advice);
 }
 
 /* Names the first disc whose porosity is clipped. */

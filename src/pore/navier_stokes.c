@@ -16,8 +16,10 @@ static void ForceOnDiscs(PgPore pore, const PgPoreArrays *s, const PetscReal F[]
       /* a disc on a plate is not projected: its vertical force belongs to the reaction of the plate */
       const PetscBool on_plate = (PetscBool)(pressure && s->plate[a] != 0.0 && i == 1);
       const PetscBool kick     = (PetscBool)(increment && PgPoreIsFree(s, a)); /* to be replaced by the new one */
-      s->kick[2 * a + i]       = kick ? -dt_f / pore->rho_s * pore->grad_p[2 * a + i] : 0.0;
-      if ((staggered || kick || on_plate) && s->detached[a] == 0.0) f -= V_p * pore->grad_p[2 * a + i];
+      const PetscReal moving   = PgPoreGradient(pore, s, a, i, F[2 * a + i]);
+      s->kick[2 * a + i]       = kick ? -dt_f / pore->rho_s * moving : 0.0;
+      if (kick) f -= V_p * moving;
+      if ((staggered || on_plate) && s->detached[a] == 0.0) f -= V_p * pore->grad_p[2 * a + i];
       if (pressure) f -= V_p * pore->rho_f * pore->gravity[i]; /* buoyancy: the hydrostatic part of -V grad p */
       s->fluid_force[2 * a + i] = s->detached[a] != 0.0 ? 0.0 : f;
     }
@@ -134,9 +136,11 @@ static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
   PetscCall(PgPoreGetArrays(pore, &s));
   for (PetscInt a = 0; a < s.owned; a++) {
     const PetscBool moves = (PetscBool)(project && PgPoreIsFree(&s, a));
-    for (PetscInt i = 2 * a; i < 2 * a + 2; i++) {
-      s.u[i] = s.u_tilde[i] - scale * (pore->grad_p[i] - s.drag[i]);
-      if (moves) s.v[i] -= s.kick[i] + dt_f / pore->rho_s * pore->grad_p[i];
+    for (int e = 0; e < 2; e++) {
+      const PetscInt i = 2 * a + e;
+      s.u[i]           = s.u_tilde[i] - scale * (pore->grad_p[i] - s.drag[i]);
+      /* where u.e is prescribed Eq. 47 leaves dp/de = F.e, see Source() */
+      if (moves) s.v[i] -= s.kick[i] + dt_f / pore->rho_s * PgPoreGradient(pore, &s, a, e, s.drag[i]);
     }
   }
   PetscCall(PgBoundaryVelocity(pore, &s, s.u));

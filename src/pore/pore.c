@@ -87,6 +87,7 @@ PetscErrorCode PgPoreCreate(PgParticles particles, PgNeighbors neighbors, PgFlui
   p->guard_clipped    = 0.5;
   p->grad_p_revision  = -1;
   p->advice           = "";
+  p->side_advice      = "";
   for (int s = 0; s < PG_SIDE_COUNT; s++) p->boundary[s] = (PgBoundary){PG_BC_DRAINED, p->p_initial, 0.0};
   PetscCall(PgDragLawFind("ergun_wen_yu", &p->drag_law));
   PetscCall(PgSphCreate(particles, neighbors, &p->sph));

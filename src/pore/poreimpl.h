@@ -72,7 +72,7 @@ struct PgPore_s {
   PetscReal *Z;      /* (1) */
   PetscInt   grad_p_revision;
 
-  const char *advice; /* what to change, appended to the message of the guard */
+  const char *advice, *side_advice; /* what to change, appended to the message of the guard */
   PgPoreStats stats;
   PetscInt    clipped, characteristic_failures; /* of this rank in this step */
 };
@@ -105,6 +105,10 @@ PETSC_INTERN PetscErrorCode PgBoundaryStart(PgPore pore);
 PETSC_INTERN PetscErrorCode PgBoundaryUpdate(PgPore pore);
 /* u.e = v.e (+ w/n on flux sides) on impermeable and flux sides, u = v on detached discs. */
 PETSC_INTERN PetscErrorCode PgBoundaryVelocity(PgPore pore, const PgPoreArrays *s, PetscReal u[]);
+/* Whether a side of disc a, impermeable or flux, prescribes what water does along axis e. */
+PETSC_INTERN PetscBool PgBoundaryHolds(PgPore pore, const PgPoreArrays *s, PetscInt a, int e);
+/* Darcy velocity that such a side prescribes along the positive axis e [m/s]; 0 if none does. */
+PETSC_INTERN PetscReal PgBoundaryFlux(PgPore pore, const PgPoreArrays *s, PetscInt a, int e);
 /* Inflow [m/s] through the flux sides of disc a times its width 2r [m2/s]. */
 PETSC_INTERN PetscReal PgBoundaryInflow(PgPore pore, const PgPoreArrays *s, PetscInt a);
 /* Outward component of F on impermeable and flux sides of disc a times its width 2r. */
@@ -129,6 +133,14 @@ static inline PetscBool PgPoreIsProjected(PgPore pore)
 static inline PetscBool PgPoreIsFree(const PgPoreArrays *s, PetscInt a)
 {
   return (PetscBool)(s->plate[a] == 0.0 && s->detached[a] == 0.0);
+}
+
+/* The gradient of the pressure that moves a disc along axis e: what its side prescribes, else the computed one. On an
+   impermeable or flux side the computed normal gradient has no part in the mass balance, which has the prescribed one;
+   discs moved by it would gain energy in every step. */
+static inline PetscReal PgPoreGradient(PgPore pore, const PgPoreArrays *s, PetscInt a, int e, PetscReal prescribed)
+{
+  return PgBoundaryHolds(pore, s, a, e) ? prescribed : pore->grad_p[2 * a + e];
 }
 
 /* Discs whose equation has the added mass: those that the projection moves, and those on a plate next to them, since

@@ -117,8 +117,8 @@ static PetscErrorCode Observe(PgPore pore)
   PetscFunctionReturn(0);
 }
 
-/* On a side without a prescribed pressure the projection pushes nothing outward, while the discs there follow the
-   contact forces: it amplifies their normal velocity in each step, unless a plate prescribes it. */
+/* Discs of impermeable and flux sides follow the contact forces along the normal: walls or a plate are to hold them
+   against the water. If nothing does, the side moves as it likes and the water is drawn after it at no cost. */
 static PetscErrorCode WarnOfFreeSides(PgPore pore)
 {
   PgPoreArrays s;
@@ -126,22 +126,20 @@ static PetscErrorCode WarnOfFreeSides(PgPore pore)
   MPI_Comm     comm  = PgParticlesComm(pore->particles);
 
   PetscFunctionBeginUser;
-  if (!PgPoreIsProjected(pore)) PetscFunctionReturn(0);
+  pore->side_advice = "";
+  if (!PgPoreIsProjected(pore) || pore->fluid != PG_FLUID_NS) PetscFunctionReturn(0);
   PetscCall(PgPoreGetArrays(pore, &s));
-  for (PetscInt a = 0; a < s.owned; a++) {
-    PetscBool open = PETSC_FALSE;
-    for (int i = 0; i < PG_SIDE_COUNT; i++)
-      if (((int)s.side[a] >> i) & 1) open = (PetscBool)(open || pore->boundary[i].kind != PG_BC_DRAINED);
-    count += open && s.plate[a] == 0.0;
-  }
+  for (PetscInt a = 0; a < s.owned; a++)
+    count += s.plate[a] == 0.0 && (PgBoundaryHolds(pore, &s, a, 0) || PgBoundaryHolds(pore, &s, a, 1));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
   if (!count) PetscFunctionReturn(0);
   PetscCall(PetscPrintf(comm,
                         "warning: %" PetscInt_FMT
-                        " discs of sides that are not drained are on no plate: the projection of -coupling "
-                        "drag_and_pressure is unstable there; make these sides drained, or use -coupling drag\n",
+                        " discs of impermeable or flux sides are on no plate: with -coupling drag_and_pressure walls "
+                        "must hold them, a side that nothing holds is unstable\n",
                         count));
-  pore->advice = "; free sides that are not drained are unstable with -coupling drag_and_pressure";
+  pore->side_advice = "; an impermeable or flux side that neither plate nor wall holds is unstable with -coupling "
+                      "drag_and_pressure";
   PetscFunctionReturn(0);
 }
 
@@ -187,6 +185,7 @@ PetscErrorCode PgPoreRestart(PgPore pore)
     pore->stats.detached += s.detached[a] != 0.0;
   }
   PetscCall(PgPressureUpdate(pore->pressure, NULL));
+  PetscCall(WarnOfFreeSides(pore));
   PetscFunctionReturn(0);
 }
 
