@@ -46,6 +46,9 @@ PETSC_EXTERN PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...) PE
 PETSC_EXTERN PetscErrorCode PgInitialize(int *argc, char ***argv, const char about[]);
 /* Refuses an argument that belongs to no option, which PETSc would pass over in silence. Collective. */
 PETSC_EXTERN PetscErrorCode PgRefuseStrayArguments(int argc, char *argv[]);
+/* Where `name`, a file that comes with the program ("options/solvers/all.txt"), is: there, seen from the present
+   folder, or else beside the program as it was installed or built. `name` itself when it is nowhere. Collective. */
+PETSC_EXTERN PetscErrorCode PgShippedFile(MPI_Comm comm, const char name[], char file[], size_t size);
 /* Ends PETSc and returns the exit status that belongs to `err`: 0 done, 2 bad input, 3 failed run,
    4 file trouble, 1 anything else. An error that only some ranks saw ends the others by MPI_Abort(). */
 PETSC_EXTERN int PgFinalize(PetscErrorCode err);

@@ -5,6 +5,7 @@
 
 static const PgStudyKind *const kinds[] = {&PgStudySolvers, &PgStudyMms, &PgStudyExplicit, &PgStudyStepping};
 enum { KINDS = sizeof kinds / sizeof *kinds };
+static const char shipped_solvers[] = "options/solvers/all.txt";
 
 PetscErrorCode PgStudyCreate(MPI_Comm comm, PgStudy *study)
 {
@@ -30,7 +31,7 @@ PetscErrorCode PgStudyCreate(MPI_Comm comm, PgStudy *study)
   s->samples              = 40;
   s->steps                = 0;
   s->windows              = 4;
-  PetscCall(PetscStrncpy(s->solver_file, "options/solvers/all.txt", sizeof s->solver_file));
+  PetscCall(PetscStrncpy(s->solver_file, shipped_solvers, sizeof s->solver_file));
   PetscCall(PetscStrncpy(s->variants,
                          "implicit:1,implicit1e-5:1,implicit1e-2:1,implicit:10,implicit1e-2:10,implicit:50,explicit1:1,"
                          "explicit1:10,explicit1:50,explicit10:1,explicit10:10,explicit10:50,explicit100:10,"
@@ -77,10 +78,13 @@ PetscErrorCode PgOptionIntList(PetscOptionItems *PetscOptionsObject, const char 
 
 PetscErrorCode PgStudySolverOptions(PgStudy study, PetscOptionItems *PetscOptionsObject)
 {
+  PetscBool given;
+
   PetscFunctionBeginUser;
   PetscCall(PgOptionString(PetscOptionsObject, "-study_solvers",
                            "file of solvers: on each line a name, then PETSc options without prefix",
-                           study->solver_file, sizeof study->solver_file, NULL));
+                           study->solver_file, sizeof study->solver_file, &given));
+  if (!given) PetscCall(PgShippedFile(study->comm, shipped_solvers, study->solver_file, sizeof study->solver_file));
   PetscCall(PgOptionString(PetscOptionsObject, "-study_only", "names of solvers of that file, others are passed over",
                            study->only, sizeof study->only, NULL));
   PetscFunctionReturn(0);
