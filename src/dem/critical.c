@@ -70,13 +70,19 @@ static PetscReal ContactLimit(const PgContactParameters *p, PetscReal inverse, P
 
 /* The spring that limits the time step: the largest stable one, and an owned disc at its end (-1: no spring). */
 typedef struct {
-  PetscReal limit; /* [s] */
-  PetscInt  disc;
+  PetscReal       limit; /* [s] */
+  PetscInt        disc;
+  const PetscInt *id;
 } Stiffest;
 
+/* Of equal ones the disc with the lowest id: so the message is the same on any number of ranks. */
 static void Consider(Stiffest *stiffest, PetscReal limit, PetscInt disc)
 {
-  if (limit < stiffest->limit) *stiffest = (Stiffest){limit, disc};
+  if (limit > stiffest->limit ||
+      (limit == stiffest->limit && stiffest->disc >= 0 && stiffest->id[disc] >= stiffest->id[stiffest->disc]))
+    return;
+  stiffest->limit = limit;
+  stiffest->disc  = disc;
 }
 
 /* Of this rank. `all`: nothing touches, and the springs that may come are considered. Collective. */
@@ -88,7 +94,8 @@ static PetscErrorCode FindStiffest(PgDem dem, Stiffest *stiffest, PetscBool *all
   PetscInt      owned;
 
   PetscFunctionBeginUser;
-  *stiffest = (Stiffest){PETSC_MAX_REAL, -1};
+  *stiffest = (Stiffest){PETSC_MAX_REAL, -1, NULL};
+  PetscCall(PgParticlesGetIds(dem->particles, &stiffest->id));
   PetscCall(PgNeighborsGetContacts(dem->neighbors, &list));
   PetscCall(PgDemGetDiscs_Private(dem, &discs));
   PetscCall(PgNeighborsGetSkin(dem->neighbors, &skin));
@@ -146,7 +153,7 @@ static PetscErrorCode ReportTooStiff(PgDem dem, const Stiffest *stiffest, PetscR
   PetscCall(PgParticlesGetArray(dem->particles, PG_POSITION, &x));
   PetscCall(PgParticlesGetArray(dem->particles, PG_MASS, &m));
   PetscCall(PgParticlesGetArray(dem->particles, dem->share, &share));
-  if (stiffest->limit == limit) mine = id[stiffest->disc];
+  if (stiffest->limit == limit && stiffest->disc >= 0) mine = id[stiffest->disc];
   PetscCallMPI(MPI_Allreduce(&mine, &first, 1, MPIU_INT, MPI_MIN, comm));
   holder = mine == first ? rank : PETSC_MPI_INT_MAX;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &holder, 1, MPI_INT, MPI_MIN, comm));

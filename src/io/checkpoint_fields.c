@@ -1,8 +1,8 @@
 /* The fields of the discs and their variable-length data from a checkpoint, for any distribution. */
 #include "checkpointimpl.h"
 
-/* No disc touches so many others. */
-enum { MOST_RECORDS = 1 << 20 };
+/* No disc touches so many others: radii differ by a factor of 100 at most. */
+enum { MOST_RECORDS = 1 << 12 };
 
 /* Rows [start, start + rows) of a dataset of reals for every rank, read and sent piece by piece; rank 0 sends even
    after a failure, so that nobody waits for ever. */
@@ -181,6 +181,32 @@ static PetscErrorCode RecordsFromIdOrder(PgParticles particles, PgRagged ragged,
   PetscFunctionReturn(0);
 }
 
+/* Before memory is asked for: the records of all discs are those of the file, and can be counted. */
+static PetscErrorCode CheckTotal(PgCheckpoint c, const char name[], PetscInt components, PetscInt count,
+                                 const PetscReal records[])
+{
+  PetscReal total = 0;
+  char      path[PETSC_MAX_PATH_LEN], reason[64];
+
+  PetscFunctionBeginUser;
+  for (PetscInt i = 0; i < count; i++) total += records[i]; /* exact: integers below 2^53 */
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPIU_REAL, MPIU_SUM, c->comm));
+  if (c->rank == 0) {
+    const hsize_t size[2] = {(hsize_t)total, (hsize_t)components};
+    hid_t         dataset = -1;
+
+    (void)snprintf(path, sizeof path, "/ragged/%s/record", name);
+    (void)snprintf(reason, sizeof reason, "%.0f records are too many", (double)total);
+    if (total > (PetscReal)(PETSC_MAX_INT / components))
+      PgHdfFail(&c->hdf, "read dataset", path, reason);
+    else
+      dataset = PgCheckpointOpenDataset(&c->hdf, path, PG_HDF_REAL, 2, size);
+    if (dataset >= 0) (void)H5Dclose(dataset);
+  }
+  PetscCall(PgHdfAgree(&c->hdf));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ReadRagged(PgCheckpoint c, PgParticles particles, PgRagged ragged, const char name[],
                                  PetscInt components)
 {
@@ -198,6 +224,7 @@ static PetscErrorCode ReadRagged(PgCheckpoint c, PgParticles particles, PgRagged
   PetscCall(PgHdfAgree(&c->hdf));
   (void)snprintf(path, sizeof path, "/ragged/%s/count", name);
   if (!c->hdf.failed) PetscCall(ScatterCounts(c, path, discs, start, count, records));
+  if (!c->hdf.failed) PetscCall(CheckTotal(c, name, components, count, records));
   if (!c->hdf.failed) {
     for (PetscInt i = 0; i < count; i++) mine += (PetscInt)records[i];
     PetscCallMPI(MPI_Scan(&mine, &end, 1, MPIU_INT, MPI_SUM, c->comm));

@@ -7,8 +7,8 @@ static PetscErrorCode GuardValues(PgPore pore, PetscInt step, PetscReal time)
   PgPoreArrays    s;
   const PetscInt *id;
   PetscReal       worst = 1.0, all;
-  PetscInt        disc  = -1;
-  PetscMPIInt     rank, owner = PETSC_MPI_INT_MAX;
+  PetscInt        disc = -1, mine = PETSC_MAX_INT, first;
+  PetscMPIInt     rank, owner     = PETSC_MPI_INT_MAX;
   PetscReal       where[7] = {0};
   MPI_Comm        comm     = PgParticlesComm(pore->particles);
 
@@ -19,7 +19,8 @@ static PetscErrorCode GuardValues(PgPore pore, PetscInt step, PetscReal time)
     const PetscReal speed = PetscSqrtReal(s.u[2 * a] * s.u[2 * a] + s.u[2 * a + 1] * s.u[2 * a + 1]);
     PetscReal       bad   = PetscMax(PetscAbsReal(s.p[a]) / pore->guard_pressure, speed / pore->guard_speed);
     if (!isfinite(s.p[a]) || !isfinite(speed) || !isfinite(s.n[a])) bad = PETSC_MAX_REAL;
-    if (bad > worst) {
+    /* of equal ones the lowest id: the message is the same on any number of ranks */
+    if (bad > worst || (disc >= 0 && bad == worst && id[a] < id[disc])) {
       worst = bad;
       disc  = a;
     }
@@ -27,7 +28,9 @@ static PetscErrorCode GuardValues(PgPore pore, PetscInt step, PetscReal time)
   PetscCallMPI(MPI_Allreduce(&worst, &all, 1, MPIU_REAL, MPIU_MAX, comm));
   if (all <= 1.0) PetscFunctionReturn(0);
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (disc >= 0 && worst == all) owner = rank;
+  if (disc >= 0 && worst == all) mine = id[disc];
+  PetscCallMPI(MPI_Allreduce(&mine, &first, 1, MPIU_INT, MPI_MIN, comm));
+  if (mine == first && mine != PETSC_MAX_INT) owner = rank;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &owner, 1, MPI_INT, MPI_MIN, comm));
   if (owner == rank) {
     const PetscReal data[7] = {(PetscReal)id[disc], s.x[2 * disc],     s.x[2 * disc + 1], s.p[disc],
@@ -36,7 +39,7 @@ static PetscErrorCode GuardValues(PgPore pore, PetscInt step, PetscReal time)
   }
   PetscCallMPI(MPI_Bcast(where, 7, MPIU_REAL, owner, comm));
   PgRunError(comm,
-             "the water has blown up at step %" PetscInt_FMT ", t = %g s: disc %" PetscInt_FMT
+             "the water has blown up at step %" PetscInt_FMT ", time %g s: disc %" PetscInt_FMT
              " at (%g, %g) m has pressure %g Pa, "
              "velocity (%g, %g) m/s, porosity %g (bounds: -pore_guard_pressure %g Pa, -pore_guard_speed %g m/s)%s%s",
              step, (double)time, (PetscInt)where[0], (double)where[1], (double)where[2], (double)where[3],
@@ -77,7 +80,7 @@ static PetscErrorCode GuardPorosity(PgPore pore, PetscInt step, PetscReal time)
   PgRunError(comm,
              "step %" PetscInt_FMT ", time %g s: the porosity of %" PetscInt_FMT " of %" PetscInt_FMT
              " discs is out of range and was clipped, more than -pore_guard_clipped %g of them; the first is disc "
-             "%" PetscInt_FMT " at (%g, %g) m with %g",
+             "%" PetscInt_FMT " at (%g, %g) m, clipped to %g",
              step, (double)time, clipped, global, (double)pore->guard_clipped, (PetscInt)where[0], (double)where[1],
              (double)where[2], (double)where[3]);
 }

@@ -108,26 +108,68 @@ static PetscErrorCode Run(PgPressure q, PetscReal rhs, PetscReal rtol, PetscReal
   PetscFunctionReturn(0);
 }
 
+/* Where the residual is largest, in words; one that is not a number is the largest. The same on all ranks. */
+static PetscErrorCode DescribeWorst(PgPressure q, char text[], size_t length)
+{
+  const PetscScalar *r, *x;
+  const PetscInt    *id;
+  PetscReal         *position, sent[5] = {0}, worst = -1.0, all;
+  PetscInt           at = 0, first = PETSC_MAX_INT, least;
+  PetscMPIInt        rank, holder;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(q->comm, &rank));
+  PetscCall(PgParticlesGetIds(q->particles, &id));
+  PetscCall(PgParticlesGetArray(q->particles, PG_POSITION, &position));
+  PetscCall(VecGetArrayRead(q->r, &r));
+  PetscCall(VecGetArrayRead(q->x, &x));
+  for (PetscInt i = 0; i < q->owned; i++) {
+    const PetscReal size = PetscIsInfOrNanScalar(r[i]) ? PETSC_MAX_REAL : PetscAbsScalar(r[i]);
+    if (size < worst || (size == worst && id[i] > id[at])) continue;
+    worst = size;
+    at    = i;
+  }
+  PetscCallMPI(MPI_Allreduce(&worst, &all, 1, MPIU_REAL, MPIU_MAX, q->comm));
+  if (worst == all && q->owned) first = id[at];
+  PetscCallMPI(MPI_Allreduce(&first, &least, 1, MPIU_INT, MPI_MIN, q->comm));
+  holder = first == least ? rank : PETSC_MPI_INT_MAX;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &holder, 1, MPI_INT, MPI_MIN, q->comm));
+  if (rank == holder) {
+    const PetscReal values[5] = {(PetscReal)id[at], position[2 * at], position[2 * at + 1], PetscRealPart(r[at]),
+                                 PetscRealPart(x[at]) + q->reference};
+    PetscCall(PetscArraycpy(sent, values, 5));
+  }
+  PetscCall(VecRestoreArrayRead(q->r, &r));
+  PetscCall(VecRestoreArrayRead(q->x, &x));
+  PetscCallMPI(MPI_Bcast(sent, 5, MPIU_REAL, holder, q->comm));
+  PetscCall(PetscSNPrintf(text, length,
+                          "largest at disc %" PetscInt_FMT " at (%g, %g) m: residual %g Pa, pressure %g Pa",
+                          (PetscInt)sent[0], (double)sent[1], (double)sent[2], (double)sent[3], (double)sent[4]));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Fail(PgPressure q, const PgPressureStats *stats, PetscReal rtol, PetscReal atol)
 {
   PetscBool   written;
   const char *note;
+  char        worst[256];
 
   PetscFunctionBeginUser;
+  PetscCall(DescribeWorst(q, worst, sizeof worst));
   PetscCall(PgPressureWriteSystem(q, q->failure, &written));
   note = written ? "the system was written to" : "the system could not be written to";
   if (stats->reason > 0)
     PgRunError(q->comm,
                "pressure: the solver reported %s after %" PetscInt_FMT
-               " iterations but the true residual is %g (rtol %g, atol %g, ||b|| = %g Pa, residuals relative to it); "
-               "%s %s",
+               " iterations but the true residual is %g (rtol %g, atol %g, ||b|| = %g Pa, residuals relative to it), "
+               "%s; %s %s",
                KSPConvergedReasons[stats->reason], stats->iterations, (double)stats->residual, (double)rtol,
-               (double)atol, (double)stats->rhs_norm, note, q->failure);
+               (double)atol, (double)stats->rhs_norm, worst, note, q->failure);
   PgRunError(q->comm,
              "pressure: the solver stopped with %s after %" PetscInt_FMT
-             " iterations, relative residual %g (rtol %g, ||b|| = %g Pa); %s %s",
+             " iterations, relative residual %g (rtol %g, ||b|| = %g Pa), %s; %s %s",
              KSPConvergedReasons[stats->reason], stats->iterations, (double)stats->residual, (double)rtol,
-             (double)stats->rhs_norm, note, q->failure);
+             (double)stats->rhs_norm, worst, note, q->failure);
 }
 
 /* What this solve says about the next: growing iterations, or a failure that is let pass, ask for a new

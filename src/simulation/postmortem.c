@@ -31,15 +31,18 @@ static PetscErrorCode Write(PgSimulation sim, const char file[])
 
 PetscErrorCode PgPostMortem(PgSimulation sim)
 {
-  char        file[PETSC_MAX_PATH_LEN];
-  PetscMPIInt size;
+  char           file[PETSC_MAX_PATH_LEN];
+  PetscMPIInt    size;
+  PetscErrorCode err = 0;
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(sim->comm, &size));
   if (size > 1 && !PgErrorIsCollective()) PetscFunctionReturn(0); /* not all ranks are here */
   PetscCall(Name(sim, file));
-  if (!file[0]) PetscFunctionReturn(0);
-  PetscCall(Write(sim, file));
-  PetscCall(PetscFPrintf(sim->comm, PETSC_STDERR, "porograin: the state at the failure is in '%s'\n", file));
+  if (file[0]) err = Write(sim, file);
+  PetscCall(PetscFPrintf(sim->comm, PETSC_STDERR,
+                         "porograin: the run failed at step %" PetscInt_FMT ", time %g s%s%s%s\n",
+                         sim->step * sim->fluid_every, (double)sim->time, file[0] && !err ? "; its state is in '" : "",
+                         err ? "" : file, file[0] && !err ? "'" : ""));
   PetscFunctionReturn(0);
 }

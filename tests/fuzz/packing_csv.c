@@ -1,18 +1,9 @@
-/* Fuzz target: the reader of CSV packings. With libFuzzer of clang:
-
-     OMPI_CC=clang mpicc -g -O1 -fsanitize=fuzzer,address,undefined -Iinclude $(pkg-config --cflags PETSc hdf5-openmpi) \
-       tests/fuzz/packing_csv.c src/io/packing_csv.c $(pkg-config --libs PETSc) -lm -o fuzz_packing_csv
-     mkdir found && ./fuzz_packing_csv -max_total_time=60 found tests/fuzz/corpus/packing_csv
-
+/* Fuzz target: the reader of CSV packings.
    The first byte chooses how the rest is cut into pieces. Whatever the text: discs and refusal do not depend on the
    pieces, every disc is one that can be used, and the reader ends. */
+#include "fuzz.h"
 #include <porograin/io.h>
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { MOST_DISCS = 4096 };
 typedef struct {
@@ -20,11 +11,6 @@ typedef struct {
   PetscInt     discs;
   PetscReal    disc[MOST_DISCS * PG_PACKING_VALUES];
 } Reading;
-
-static void Demand(int condition)
-{
-  if (!condition) abort();
-}
 
 /* Reads as a program reads a file: `piece` bytes more whenever nothing is left to take, `room` discs at a time. */
 static void ReadInPieces(const char text[], size_t size, size_t piece, PetscInt room, Reading *reading)

@@ -110,6 +110,85 @@ static void GuardNotFinite(void **state)
   WorldDestroy(&world);
 }
 
+/* Not a number anywhere: in what moves a disc, and in what moves it next. */
+static void GuardNotFiniteAnywhere(void **state)
+{
+  static const struct {
+    const char *field;
+    PetscInt    components, at;
+  } where[] = {{"position", 2, 0}, {"position", 2, 1}, {"velocity", 2, 0},         {"velocity", 2, 1},
+               {"force", 2, 0},    {"force", 2, 1},    {"angular_velocity", 1, 0}, {"torque", 1, 0}};
+
+  (void)state;
+  for (size_t k = 0; k < sizeof where / sizeof *where; k++) {
+    PetscReal bad[2] = {0.01, 0.02};
+    World     world;
+
+    Start(&world);
+    bad[where[k].at] = k % 2 ? NAN : -INFINITY;
+    WorldSet(&world, where[k].field, where[k].components, 1, bad);
+    Capture();
+    assert_int_equal(PgDemGuard(world.dem, 3, 0.5), PETSC_ERR_NOT_CONVERGED);
+    EXPECT("step 3, time 0.5 s: disc 1 at (", "not finite; force (", k % 2 ? "nan" : "-inf");
+    WorldDestroy(&world);
+  }
+}
+
+static void GuardDomain(void **state)
+{
+  const PetscReal inside[2] = {0.129, 0.011}, left[2] = {-0.0015, 0.02}, above[2] = {0.01, 0.0402};
+  World           world;
+
+  (void)state;
+  CHECK(PetscOptionsSetValue(NULL, "-dem_guard_domain", "-1e-3,0.13,0.01,0.04"));
+  Start(&world);
+  CHECK(PgDemSetFromOptions(world.dem));
+  WorldSet(&world, "position", 2, 2, inside);
+  CHECK(PgDemGuard(world.dem, 5, 0.25));
+  WorldSet(&world, "position", 2, 0, above);
+  WorldSet(&world, "position", 2, 2, left); /* farther out than disc 0 */
+  Capture();
+  assert_int_equal(PgDemGuard(world.dem, 6, 0.5), PETSC_ERR_NOT_CONVERGED);
+  EXPECT("step 6, time 0.5 s: disc 2 at (-0.0015, 0.02) m, velocity (-2., 0.) m/s, spin 6. rad/s",
+         "it has left -dem_guard_domain -0.001,0.13,0.01,0.04");
+  WorldDestroy(&world);
+  CHECK(PetscOptionsClearValue(NULL, "-dem_guard_domain"));
+}
+
+/* A disc that comes to lie between two others, one of them light, bears a smaller time step than before. */
+static void GuardTimeStep(void **state)
+{
+  const PetscReal between[2] = {0.028, 0.02};
+  PetscReal       dt, later;
+  char            limit[64];
+  World           world;
+
+  (void)state;
+  Start(&world);
+  CHECK(PgDemCriticalTimeStep(world.dem, &dt));
+  CHECK(PgDemGuardTimeStep(world.dem, 7, 0.5, dt));
+  Capture();
+  assert_int_equal(PgDemGuardTimeStep(world.dem, 7, 0.5, dt * 1.001), PETSC_ERR_NOT_CONVERGED);
+  EXPECT("step 7, time 0.5 s: disc 0 at (0.01, 0.02) m, mass 0.17 kg/m, with 1. springs on it bears a time step of at");
+  WorldSet(&world, "position", 2, 2, between);
+  CHECK(PgNeighborsBuild(world.neighbors));
+  CHECK(PgDemCriticalTimeStep(world.dem, &later));
+  assert_true(later < 0.85 * dt); /* disc 1 has two springs now: about 1/sqrt(2), masses and radii differ */
+  CHECK(PetscSNPrintf(limit, sizeof limit, "at most %g s; %g s is above", (double)later, (double)dt));
+  Capture();
+  assert_int_equal(PgDemGuardTimeStep(world.dem, 8, 0.75, dt), PETSC_ERR_NOT_CONVERGED);
+  EXPECT("step 8, time 0.75 s: disc 1 at (0.0195, 0.02) m, mass 0.17 kg/m, with 2. springs on it", limit,
+         "-dem_guard_time_step 1. times that: give a smaller -dt");
+  CHECK(PetscOptionsSetValue(NULL, "-dem_guard_time_step", "1.5"));
+  CHECK(PgDemSetFromOptions(world.dem));
+  CHECK(PetscOptionsClearValue(NULL, "-dem_guard_time_step"));
+  CHECK(PgDemGuardTimeStep(world.dem, 8, 0.75, 1.499 * later));
+  Capture();
+  assert_int_equal(PgDemGuardTimeStep(world.dem, 8, 0.75, 1.501 * later), PETSC_ERR_NOT_CONVERGED);
+  EXPECT("above -dem_guard_time_step 1.5 times that");
+  WorldDestroy(&world);
+}
+
 /* Sets options, expects SetFromOptions to refuse them, and takes them back. */
 static void Refused(PetscInt count, const char *const option[], const char *const value[], PetscErrorCode expected)
 {
@@ -205,10 +284,17 @@ static void Calls(void **state)
 
 static int Tests(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(GuardQuiet),   cmocka_unit_test(GuardSpeed),
-                                     cmocka_unit_test(GuardOverlap), cmocka_unit_test(GuardNotFinite),
-                                     cmocka_unit_test(Options),      cmocka_unit_test(AcceptedOptions),
-                                     cmocka_unit_test(View),         cmocka_unit_test(Calls)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(GuardQuiet),
+                                     cmocka_unit_test(GuardSpeed),
+                                     cmocka_unit_test(GuardOverlap),
+                                     cmocka_unit_test(GuardNotFinite),
+                                     cmocka_unit_test(GuardNotFiniteAnywhere),
+                                     cmocka_unit_test(GuardDomain),
+                                     cmocka_unit_test(GuardTimeStep),
+                                     cmocka_unit_test(Options),
+                                     cmocka_unit_test(AcceptedOptions),
+                                     cmocka_unit_test(View),
+                                     cmocka_unit_test(Calls)};
 
   return cmocka_run_group_tests_name("guard and options", tests, NULL, NULL);
 }

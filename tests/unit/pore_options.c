@@ -210,6 +210,35 @@ static void Guard(void **state)
   }
 }
 
+/* Porosities out of range are clipped; when it is too many discs, the run ends and names the first of them. */
+static void GuardPorosity(void **state)
+{
+  const Packing   packing = {5, 6, 5e-3, 0.1, 0.1};
+  const PetscReal dt      = 1e-5;
+
+  (void)state;
+  /* 30 discs have about the same porosity, and a lower bound above it clips all of them */
+  for (int k = 0; k < 3; k++) {
+    Ground g;
+
+    GroundCreate(PETSC_COMM_WORLD, GROUND_DARCY,
+                 k == 0   ? "-pressure explicit -pore_guard_clipped 0"
+                 : k == 1 ? "-pressure explicit -porosity_min 0.9 -pore_guard_clipped 1"
+                          : "-pressure explicit -porosity_min 0.9 -pore_guard_clipped 0.99",
+                 &g);
+    GroundFill(&g, PackingCount(&packing), PackingPlace, &packing);
+    CHECK(PgPoreSetUp(g.pore, dt));
+    CHECK(PgPorePredict(g.pore, dt));
+    CHECK(PgPoreCorrect(g.pore, dt));
+    if (k < 2)
+      CHECK(PgPoreGuard(g.pore, 5, 0.5));
+    else
+      FAILS(PgPoreGuard(g.pore, 5, 0.5), PETSC_ERR_NOT_CONVERGED, "step 5, time 0.5 s: the porosity of 30 of 30 discs",
+            "more than -pore_guard_clipped 0.99 of them; the first is disc 0 at (", "m, clipped to 0.9\n");
+    GroundDestroy(&g);
+  }
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(Refusals),
     cmocka_unit_test(Accepted),
@@ -217,6 +246,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(StepOfTheStaggeredDarcyCoupling),
     cmocka_unit_test(Warnings),
     cmocka_unit_test(Guard),
+    cmocka_unit_test(GuardPorosity),
 };
 
 /* The last word on refusals: a run that ends with one has exit status 2. */
