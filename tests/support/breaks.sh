@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# breaks.sh [FOLDER]: breaks the program on purpose, once for each line of the table below, and says whether the
+# verification notices. Works on a copy of the sources, in FOLDER (default: a new one). Status 1 if a break goes unnoticed.
+#
+# A line: test of tests/verify (run on one rank) ; file ; sed expression ; what that means
+set -euo pipefail
+source=$(cd "$(dirname "$0")/../.." && pwd)
+folder=${1:-$(mktemp -d)}
+
+table() {
+  cat <<'LINES'
+dem_collision ; src/dem/demimpl.h ; s/- p->c_n \* m->overlap_rate; /- 0.99 * p->c_n * m->overlap_rate; / ; dashpot 1 % weaker
+dem_plane ; src/dem/integrate.c ; s/(0.5 \* r\[i\] \* r\[i\])/(0.501 * r[i] * r[i])/ ; moment of inertia 0.2 % larger
+dem_plane ; src/dem/demimpl.h ; s/p->mu_theta_r \* N, u/1.001 * p->mu_theta_r * N, u/ ; cap of the rolling moment 0.1 % higher
+dem_incline ; src/dem/integrate.c ; s/(0.5 \* r\[i\] \* r\[i\])/(0.501 * r[i] * r[i])/ ; moment of inertia 0.2 % larger
+dem_lattice ; src/dem/demimpl.h ; s/Friction(p->k_s,/Friction(1.01 * p->k_s,/ ; sliding stiffness 1 % higher
+dem_biaxial ; src/dem/walls.c ; s/gain \* (w->stress \* length/gain * (1.02 * w->stress * length/ ; servo walls hold 2 % too much
+dem_energy ; src/dem/demimpl.h ; s/(0.5 \* (before + after) + viscous) \* slip/(after + viscous) * slip/ ; friction takes the force of the end, not the mean
+dem_panel ; src/dem/integrate.c ; 0,/HalfKick(dem, 0.5/s//HalfKick(dem, 0.6/;s/HalfKick(dem, 0.5/HalfKick(dem, 0.4/ ; halves of the velocity step 0.6 and 0.4
+dem_lammps ; src/dem/contact_loop.c ; s/ny) + spin;/ny) + 0.9999 * spin;/ ; sliding by rotation 0.01 % less
+operator_mms ; src/sph/correction.c ; s/(m\[3\] \* gx - m\[1\] \* gy)/(m[3] * gx + m[1] * gy)/ ; wrong sign in the inverse of the correction matrix
+operator_mms ; src/sph/coefficient_loop.c ; s/= 2.0 \* f \* r2/= 2.01 * f * r2/ ; weights of the Laplacian 0.5 % larger
+pressure_mms ; src/sph/coefficient_loop.c ; s/= 2.0 \* f \* r2/= 2.01 * f * r2/ ; weights of the Laplacian 0.5 % larger
+predictor ; src/pore/step.c ; s/b00 = 1.0 + dt_f \* g\[0\]/b00 = 1.0 + 0.99 * dt_f * g[0]/ ; matrix B 1 % off in one place
+water_bed_darcy ; src/pore/darcy.c ; s/s.v\[i\] - k_p \*/s.v[i] - 1.001 * k_p */ ; Darcy velocity 0.1 % larger
+water_bed_ns ; src/pore/drag.c ; s/1\.75 \* (1\.0 - n)/1.76 * (1.0 - n)/ ; quadratic term of Ergun's law 0.6 % larger
+water_bed_ns ; src/pore/navier_stokes.c ; s|pore->rho_f / (pore->theta \* dt_f)|pore->rho_f / dt_f| ; theta left out of Eq. 50
+water_column ; src/pore/navier_stokes.c ; s/if (pressure) f -= V_p/if (pressure) f -= 0.999 * V_p/ ; buoyancy 0.1 % smaller
+water_column ; src/pore/darcy.c ; s/(n + (pressure ? 1.0 - n : 0.0))/n/ ; seepage force on a plate without the pressure gradient
+water_porosity ; src/pore/porosity.c ; s/PetscExpReal(-divergence\[a\] \* dt_f)/PetscExpReal(-1.01 * divergence[a] * dt_f)/ ; kinematic rate 1 % larger
+water_terzaghi ; src/pore/poreimpl.h ; s/if (s->plate\[a\] == 0.0) return PETSC_TRUE;/if (s->plate[a] == 0.0) return PETSC_FALSE;/ ; no added mass in the equation of free discs
+water_terzaghi ; src/pore/darcy.c ; s/return dt_f \/ ((1.0/return 0.9 * dt_f \/ ((1.0/ ; mobility of the discs 10 % smaller
+water_panel ; src/dem/integrate.c ; 0,/HalfKick(dem, 0.5/s//HalfKick(dem, 0.6/;s/HalfKick(dem, 0.5/HalfKick(dem, 0.4/ ; halves of the velocity step 0.6 and 0.4
+water_panel ; src/simulation/step.c ; s/dt_f = sim->dt \* (PetscReal)sim->fluid_every;/dt_f = sim->dt * (PetscReal)(sim->fluid_every + (sim->fluid_every > 1));/ ; fluid step of M + 1 steps of the discs, for M > 1
+LINES
+}
+
+mkdir -p "$folder/source" "$folder/log"
+for part in CMakeLists.txt include src tests options docs; do cp -R "$source/$part" "$folder/source/"; done
+for part in "$source"/*; do [ -e "$folder/source/$(basename "$part")" ] || [ -d "$part/CMakeFiles" ] || cp -R "$part" "$folder/source/"; done
+cmake -S "$folder/source" -B "$folder/build" -DCMAKE_BUILD_TYPE=Release >"$folder/log/configure"
+
+echo "| test | break | noticed |"
+echo "| --- | --- | --- |"
+unnoticed=0
+number=0
+while IFS=';' read -r test file rest; do
+  # the sed expression may hold semicolons: the meaning is what follows the last one
+  meaning=${rest##*;}
+  expression=${rest%;*}
+  test=${test// /} file=${file// /}
+  number=$((number + 1))
+  cp "$folder/source/$file" "$folder/whole"
+  sed -i -e "$(sed 's/^ *//; s/ *$//' <<<"$expression")" "$folder/source/$file"
+  if cmp -s "$folder/whole" "$folder/source/$file"; then
+    echo "$file: nothing replaced by $expression" >&2
+    exit 2
+  fi
+  target=porograin
+  [ ! -f "$source/tests/verify/$test.c" ] || target="test-verify-$test"
+  cmake --build "$folder/build" --target "$target" >"$folder/log/$number.build" 2>&1 || {
+    tail -n 5 "$folder/log/$number.build" >&2
+    exit 2
+  }
+  if ctest --test-dir "$folder/build" -R "^verify.$test(.np1)?\$" --output-on-failure >"$folder/log/$number.test" 2>&1; then
+    noticed=no
+    unnoticed=1
+  elif grep -Eq 'ERROR: .*(instead of|is not between|order)|FAIL:' "$folder/log/$number.test"; then
+    noticed=yes
+  else
+    noticed="yes, but not by a value: $(grep -m 1 -E 'rror' "$folder/log/$number.test" || true)"
+  fi
+  echo "| \`$test\` |$meaning | $noticed |"
+  cp "$folder/whole" "$folder/source/$file"
+done < <(table)
+exit $unnoticed
