@@ -117,8 +117,8 @@ static int RunIn(const char directory[], const char program[], char *script)
       (void)dup2(null, 1);
     }
     if (chdir(directory)) _exit(126);
-    (void)setenv("LC_ALL", "C.UTF-8",
-                 1); /* the scripts are in UTF-8, and gnuplot's warnings are no business of the user's locale */
+    /* the scripts are in UTF-8; in another locale gnuplot warns of each */
+    (void)setenv("LC_ALL", "C.UTF-8", 1);
     (void)execvp(name, word);
     _exit(errno == ENOENT ? 127 : 126);
   }
