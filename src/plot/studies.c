@@ -110,12 +110,14 @@ static void Draw(FILE *f, const Series *s, const char name[], const char x[], co
 }
 
 /* The same, each point with its fourth column written beside it. */
-static void Labels(FILE *f, const Series *s, const char name[], const char x[], const char y[], const PetscInt drawn[])
+static void Labels(FILE *f, PetscReal size, const Series *s, const char name[], const char x[], const char y[],
+                   const PetscInt drawn[])
 {
-  (void)fprintf(f,
-                "plot for [k=0:%d] '%s.dat' index k using (%s):(%s):4 with labels left offset 0.5,0.5 font ',9' tc rgb "
-                "'#666666' notitle, \\\n  ",
-                (int)s->count - 1, name, x, y);
+  (void)fprintf(
+      f,
+      "plot for [k=0:%d] '%s.dat' index k using (%s):(%s):4 with labels left offset 0.6,0.4 font ',%.3g' tc rgb "
+      "'#666666' notitle, \\\n  ",
+      (int)s->count - 1, name, x, y, (double)(8.5 * size));
   DrawSeries(f, s, name, x, y, drawn, NULL);
 }
 
@@ -262,7 +264,7 @@ static PetscErrorCode Sweeps(PgPlot plot, const PgPlotSource *source)
     Style(script.file, "explicit sweeps (0: the guess of Eq. 59)", "largest error / largest excess pressure",
           PETSC_TRUE, PETSC_TRUE);
     /* there is no 0 on a logarithmic axis: the guess stands at 0.5 */
-    (void)fprintf(script.file, "set xtics add ('0' 0.5)\nset key outside right\n");
+    (void)fprintf(script.file, "set xrange [0.4:*]\nset xtics add ('0' 0.5)\nset key outside right\n");
     Draw(script.file, &s, name, "$1 > 0 ? $1 : 0.5", "$2 > 0 ? $2 : NaN", drawn, NULL);
     PetscCall(PgScriptEnd(&script));
   }
@@ -295,7 +297,7 @@ static PetscErrorCode Cost(PgPlot plot, const PgPlotSource *source)
     PetscCall(PgScriptBegin(plot, name, 960.0, 480.0, PETSC_FALSE, &script));
     PetscCall(PgScriptPicture(&script));
     (void)fprintf(script.file, "set multiplot layout 1,2 margins 0.09,0.98,0.3,0.95 spacing 0.1,0\n");
-    Style(script.file, "time [us per disc and step of the discs]", "", PETSC_TRUE, PETSC_TRUE);
+    Style(script.file, "time [µs per disc and step of the discs]", "", PETSC_TRUE, PETSC_TRUE);
     (void)fprintf(script.file,
                   "set format x '%%g'\nset format y '%%g'\nset autoscale fix\n"
                   "set offsets graph 0.05, graph 0.08, graph 0.08, graph 0.05\n"
@@ -303,13 +305,14 @@ static PetscErrorCode Cost(PgPlot plot, const PgPlotSource *source)
                   "5*10.0**e)\n"
                   "  set ytics add (sprintf('%%g', 2*10.0**e) 2*10.0**e, sprintf('%%g', 5*10.0**e) 5*10.0**e)\n}\n"
                   "set arrow from first %.6g,graph 0 to first %.6g,graph 1 nohead dt 2 lc rgb '#888888'\n"
-                  "set label 'labels: M, dashed: reference (%s, M = %g)' at screen 0.5,0.025 center tc rgb '#666666'\n",
+                  "set label 'labels: M; dashed: the reference (%s, M = %g); explicitK: K sweeps, implicitR: to a "
+                  "residual R' at screen 0.5,0.025 center tc rgb '#666666'\n",
                   (double)reference, (double)reference, PgScriptQuote(s.key[0], quoted, sizeof quoted), (double)every);
     for (int p = 0; p < 2; p++) {
       (void)fprintf(script.file, "set ylabel '%s'\n%s\n", label[p],
                     p ? "unset key" : "set key at screen 0.5,0.06 center bottom maxrows 2 noenhanced");
       (void)snprintf(y, sizeof y, "$%d > 0 ? $%d : NaN", p + 2, p + 2);
-      Labels(script.file, &s, name, "$1", y, drawn);
+      Labels(script.file, plot->size, &s, name, "$1", y, drawn);
     }
     (void)fprintf(script.file, "unset multiplot\n");
     PetscCall(PgScriptEnd(&script));
