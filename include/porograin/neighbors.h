@@ -24,6 +24,11 @@ typedef struct {
    build was below reach(r_a, r_b) + skin, in ascending id. */
 typedef struct {
   const PetscInt *ptr, *col; /* CSR; col are local indices, ghosts included */
+  /* The same pairs once each, for what both discs of a pair share: the disc `one[q]` (owned) has the other as its entry
+     one_at[q], and the disc `two[q]` has the first as its entry two_at[q]. Where `two` is a ghost, which has no row
+     here, two_at is ptr[owned], one past the last entry. */
+  PetscInt        pairs;
+  const PetscInt *one, *two, *one_at, *two_at;
 } PgRowList;
 
 /* Collective. */

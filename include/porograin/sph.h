@@ -48,4 +48,8 @@ PETSC_EXTERN PetscErrorCode PgSphGetFallbacks(PgSph sph, PetscInt *gradients, Pe
 PETSC_EXTERN PetscErrorCode PgSphGradient(PgSph sph, const PetscReal f[], PetscReal grad[]);
 PETSC_EXTERN PetscErrorCode PgSphVectorGradient(PgSph sph, const PetscReal u[], PetscReal grad[]);
 PETSC_EXTERN PetscErrorCode PgSphDivergence(PgSph sph, const PetscReal u[], PetscReal div[]);
+/* div u, div v and grad f in one pass over the rows. */
+PETSC_EXTERN PetscErrorCode PgSphDivergencesAndGradient(PgSph sph, const PetscReal u[], const PetscReal v[],
+                                                        const PetscReal f[], PetscReal div_u[], PetscReal div_v[],
+                                                        PetscReal grad_f[]);
 PETSC_EXTERN PetscErrorCode PgSphLaplacian(PgSph sph, const PetscReal f[], PetscReal lap[]);

@@ -6,16 +6,8 @@
    a choice be computed before choosing (both are finite here), -ffp-contract=off keeps the machine from
    joining a product and a sum into one rounding. Addition order is as written: no -ffast-math.
 
-   On x86-64, gcc compiles the function twice, and the dynamic linker picks the AVX2 one where the machine
-   has it; the same operations in the same order, so the same bits. */
+   On x86-64, gcc compiles the functions for wider vectors, too, and the dynamic linker picks (PG_CLONES). */
 #include "demimpl.h"
-
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) &&                       \
-    !defined(PG_DEM_PLAIN_LOOP)
-  #define PG_DEM_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-  #define PG_DEM_CLONES
-#endif
 
 /* The motion of a block of pairs, gathered from the discs one by one into short arrays that stay in the
    first-level cache, so that the arithmetic works on contiguous data. */
@@ -96,7 +88,7 @@ static inline __attribute__((always_inline)) void Loop(const PgContactParameters
   }
 }
 
-PG_DEM_CLONES
+PG_CLONES
 void PgDemContactLoopLi2007(const PgContactParameters *parameters, const PgContactList *list, const PgDemDiscs *discs,
                             PetscReal dt, const PgDemPairs *pairs)
 {
@@ -104,7 +96,7 @@ void PgDemContactLoopLi2007(const PgContactParameters *parameters, const PgConta
 }
 
 /* A separate instance, so that runs without energy accounts do not pay for them. */
-PG_DEM_CLONES
+PG_CLONES
 void PgDemContactLoopEnergyLi2007(const PgContactParameters *parameters, const PgContactList *list,
                                   const PgDemDiscs *discs, PetscReal dt, const PgDemPairs *pairs)
 {

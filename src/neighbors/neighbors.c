@@ -71,6 +71,7 @@ PetscErrorCode PgNeighborsDestroy(PgNeighbors *neighbors)
   PetscCall(PetscFree(n->contact_sum));
   PetscCall(PetscFree(n->row_ptr));
   PetscCall(PetscFree(n->row_col));
+  for (int i = 0; i < 4; i++) PetscCall(PetscFree(n->row_pair[i]));
   PetscCall(PetscFree(n->key));
   PetscCall(PetscFree(n->value));
   PetscCall(PetscFree(*neighbors));
@@ -129,8 +130,13 @@ PetscErrorCode PgNeighborsGetRows(PgNeighbors neighbors, PgRowList *list)
   PetscFunctionBeginUser;
   PetscCheck(neighbors->builds && neighbors->rows_wanted, PETSC_COMM_SELF, PETSC_ERR_ORDER, "the row list was never %s",
              neighbors->rows_wanted ? "built" : "requested");
-  list->ptr = neighbors->row_ptr;
-  list->col = neighbors->row_col;
+  list->ptr    = neighbors->row_ptr;
+  list->col    = neighbors->row_col;
+  list->pairs  = neighbors->row_pairs;
+  list->one    = neighbors->row_pair[0];
+  list->two    = neighbors->row_pair[1];
+  list->one_at = neighbors->row_pair[2];
+  list->two_at = neighbors->row_pair[3];
   PetscFunctionReturn(0);
 }
 

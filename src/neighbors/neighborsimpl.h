@@ -42,6 +42,8 @@ struct PgNeighbors_s {
 
   PetscInt *row_ptr, *row_col;
   PetscInt  row_ptr_capacity, row_col_capacity;
+  PetscInt *row_pair[4]; /* one, two, one_at, two_at */
+  PetscInt  row_pairs, row_pair_capacity[4];
 
   PetscInt *key, *value; /* scratch of one row: ids of the partners, what is sorted by them */
   PetscInt  scratch_capacity;

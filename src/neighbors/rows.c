@@ -20,6 +20,51 @@ static PetscInt Partners(PgNeighbors neighbors, const PgCellList *cells, const P
   return n;
 }
 
+/* Entry of disc `partner` in row i, whose ids ascend. A period narrower than two reaches gives a disc and its image the
+   same id. */
+static PetscInt FindEntry(const PgNeighbors neighbors, const PetscInt id[], PetscInt i, PetscInt partner)
+{
+  PetscInt low = neighbors->row_ptr[i], high = neighbors->row_ptr[i + 1];
+
+  while (low < high) {
+    const PetscInt middle = low + (high - low) / 2;
+    if (id[neighbors->row_col[middle]] < id[partner])
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  while (low < neighbors->row_ptr[i + 1] && neighbors->row_col[low] != partner) low++;
+  return low;
+}
+
+/* Each pair once, in the order of the rows: the disc with the smaller local index first, so that ghosts are second. */
+static PetscErrorCode PairRows(PgNeighbors neighbors, PetscInt owned, const PetscInt id[])
+{
+  const PetscInt *ptr = neighbors->row_ptr, *col = neighbors->row_col;
+  PetscInt        count = 0;
+
+  PetscFunctionBeginUser;
+  for (PetscInt i = 0; i < owned; i++)
+    for (PetscInt k = ptr[i]; k < ptr[i + 1]; k++) count += col[k] > i;
+  for (int f = 0; f < 4; f++)
+    PetscCall(PgReserveInts(0, count, &neighbors->row_pair_capacity[f], &neighbors->row_pair[f]));
+  neighbors->row_pairs = count;
+  count                = 0;
+  for (PetscInt i = 0; i < owned; i++) {
+    for (PetscInt k = ptr[i]; k < ptr[i + 1]; k++) {
+      if (col[k] < i) continue;
+      neighbors->row_pair[0][count] = i;
+      neighbors->row_pair[1][count] = col[k];
+      neighbors->row_pair[2][count] = k;
+      neighbors->row_pair[3][count] = col[k] < owned ? FindEntry(neighbors, id, col[k], i) : ptr[owned];
+      PgAssert(col[k] >= owned || neighbors->row_pair[3][count] < ptr[col[k] + 1],
+               "disc %" PetscInt_FMT " is not in the row of its partner %" PetscInt_FMT, i, col[k]);
+      count++;
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgRowsBuild(PgNeighbors neighbors)
 {
   PgParticles     particles = neighbors->particles;
@@ -48,5 +93,6 @@ PetscErrorCode PgRowsBuild(PgNeighbors neighbors)
   }
   neighbors->row_ptr[owned] = entries;
   PetscCall(PgCellListDestroy(&cells));
+  PetscCall(PairRows(neighbors, owned, id));
   PetscFunctionReturn(0);
 }

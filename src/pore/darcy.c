@@ -73,7 +73,8 @@ static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
   PetscFunctionBeginUser;
   PetscCall(PgPoreGetArrays(pore, &s));
   PetscCall(Mobility(pore, dt_f, kappa, &uniform));
-  PetscCall(PgPorosityChange(pore, &s, dt_f, pore->a, Z));
+  PetscCall(PgSphDivergence(pore->sph, s.v, pore->a));
+  PetscCall(PgPorosityDerivative(pore, &s, dt_f, pore->a, Z));
   for (PetscInt a = 0; a < s.owned; a++) Z[a] += pore->n_flow[a] * pore->a[a];
   if (PgPoreIsProjected(pore) && pore->coupling_scheme == PG_SCHEME_INCREMENTAL)
     PetscCall(PgPressureLaplacian(pore, &s, pore->a));

@@ -6,8 +6,10 @@ static PetscReal ErgunWenYu(PetscReal n, PetscReal d, PetscReal speed, PetscReal
 {
   PetscReal re, c_d_speed;
 
-  if (n <= 0.8)
-    return 150.0 * (1.0 - n) * (1.0 - n) / (n * n) * mu / (d * d) + 1.75 * (1.0 - n) / n * rho_f * speed / d;
+  if (n <= 0.8) {
+    const PetscReal a = (1.0 - n) / (n * d); /* 150 mu a^2 + 1.75 rho_f |v - u| a */
+    return a * ((150.0 * mu) * a + (1.75 * rho_f) * speed);
+  }
   re = speed * rho_f * n * d / mu;
   /* C_D |v - u| stays finite at rest, where C_D alone does not */
   if (re < 1000.0)
@@ -42,17 +44,37 @@ PetscErrorCode PgDragLawFind(const char name[], const PgDragLaw **law)
   PetscFunctionReturn(0);
 }
 
+/* Ergun's law for all discs, in a form that the compiler vectorises; what is more porous comes after. */
+static void ErgunLoop(PgPore pore, const PgPoreArrays *s, const PetscReal u[], PetscReal F[])
+{
+  const PetscReal viscous = 150.0 * pore->mu, inertial = 1.75 * pore->rho_f;
+
+  for (PetscInt a = 0; a < s->owned; a++) {
+    const PetscReal rx = s->v[2 * a] - u[2 * a], ry = s->v[2 * a + 1] - u[2 * a + 1], n = s->n[a];
+    const PetscReal speed = PetscSqrtReal(rx * rx + ry * ry), k = (1.0 - n) / (n * (2.0 * s->radius[a]));
+    const PetscReal beta = s->detached[a] != 0.0 ? 0.0 : k * (viscous * k + inertial * speed);
+    F[2 * a]             = beta * rx;
+    F[2 * a + 1]         = beta * ry;
+  }
+}
+
 PetscErrorCode PgDragForce(PgPore pore, const PgPoreArrays *s, const PetscReal u[], PetscReal F[])
 {
+  const PetscBool ergun = (PetscBool)(pore->drag_law->beta == ErgunWenYu);
+
   PetscFunctionBeginUser;
+  if (ergun) ErgunLoop(pore, s, u, F);
   for (PetscInt a = 0; a < s->owned; a++) {
-    const PetscReal rx = s->v[2 * a] - u[2 * a], ry = s->v[2 * a + 1] - u[2 * a + 1];
-    const PetscReal speed = PetscSqrtReal(rx * rx + ry * ry);
-    const PetscReal beta  = s->detached[a] != 0.0
-                                ? 0.0
-                                : pore->drag_law->beta(s->n[a], 2.0 * s->radius[a], speed, pore->rho_f, pore->mu);
-    F[2 * a]              = beta * rx;
-    F[2 * a + 1]          = beta * ry;
+    PetscReal rx, ry, beta;
+
+    if (ergun && s->n[a] <= 0.8) continue;
+    rx           = s->v[2 * a] - u[2 * a];
+    ry           = s->v[2 * a + 1] - u[2 * a + 1];
+    beta         = s->detached[a] != 0.0 ? 0.0
+                                         : pore->drag_law->beta(s->n[a], 2.0 * s->radius[a], PetscSqrtReal(rx * rx + ry * ry),
+                                                                pore->rho_f, pore->mu);
+    F[2 * a]     = beta * rx;
+    F[2 * a + 1] = beta * ry;
   }
   PetscFunctionReturn(0);
 }

@@ -81,35 +81,44 @@ static PetscErrorCode Predict(PgPore pore, PetscReal dt_f)
   PetscFunctionReturn(0);
 }
 
+/* Z = rho_f/(theta dt) (div u~ - S) + div F, S = -[Dn/Dt + (u~ - v).grad n]/n with `averaged` continuity and 0 else, from
+   the sum rho_f/(theta dt) u~ + F, which takes the place of Q. */
+static PetscErrorCode Divergences(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, PetscReal Z[])
+{
+  const PetscReal scale = pore->rho_f / (pore->theta * dt_f);
+
+  PetscFunctionBeginUser;
+  for (PetscInt i = 0; i < 2 * s->owned; i++) s->Q[i] = scale * s->u_tilde[i] + s->drag[i];
+  PetscCall(PgParticlesHalo(pore->particles, 1, &pore->Q));
+  if (pore->continuity != PG_CONTINUITY_AVERAGED) {
+    PetscCall(PgSphDivergence(pore->sph, s->Q, Z));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(PgSphDivergencesAndGradient(pore->sph, s->Q, s->v, pore->n_flow, Z, pore->grad_u, pore->b));
+  PetscCall(PgPorosityDerivative(pore, s, dt_f, pore->grad_u, pore->a));
+  for (PetscInt a = 0; a < s->owned; a++) {
+    const PetscReal advected = (s->u_tilde[2 * a] - s->v[2 * a]) * pore->b[2 * a] +
+                               (s->u_tilde[2 * a + 1] - s->v[2 * a + 1]) * pore->b[2 * a + 1];
+    Z[a] += scale * ((pore->a[a] + advected) / pore->n_flow[a]);
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Eq. 50; `averaged` continuity adds -rho_f/(theta dt) S with S = -[Dn/Dt + (u~ - v).grad n]/n, and the
    two-phase projection divides by 1 + (1 - n) rho_f/(n theta rho_s), having added what the old pressure has done to v*
    already (`incremental`). */
 static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
 {
-  const PetscReal   scale   = pore->rho_f / (pore->theta * dt_f);
   const PetscBool   project = PgPoreIsProjected(pore);
   PgPoreArrays      s;
   PgSphCoefficients c;
-  PgField           fields[2] = {pore->u_tilde, pore->drag};
 
   PetscFunctionBeginUser;
   PetscCall(PgPoreGetArrays(pore, &s));
   PetscCall(PgSphGetCoefficients(pore->sph, &c));
   PetscCall(PgBoundaryVelocity(pore, &s, s.u_tilde));
   PetscCall(PgDragForce(pore, &s, s.u_tilde, s.drag));
-  PetscCall(PgParticlesHalo(pore->particles, 2, fields));
-  PetscCall(PgSphDivergence(pore->sph, s.u_tilde, Z));
-  if (pore->continuity == PG_CONTINUITY_AVERAGED) {
-    PetscCall(PgPorosityChange(pore, &s, dt_f, pore->grad_u, pore->a));
-    PetscCall(PgSphGradient(pore->sph, pore->n_flow, pore->b));
-    for (PetscInt a = 0; a < s.owned; a++) {
-      const PetscReal advected = (s.u_tilde[2 * a] - s.v[2 * a]) * pore->b[2 * a] +
-                                 (s.u_tilde[2 * a + 1] - s.v[2 * a + 1]) * pore->b[2 * a + 1];
-      Z[a] += (pore->a[a] + advected) / pore->n_flow[a];
-    }
-  }
-  PetscCall(PgSphDivergence(pore->sph, s.drag, pore->a));
-  for (PetscInt a = 0; a < s.owned; a++) Z[a] = scale * Z[a] + pore->a[a];
+  PetscCall(Divergences(pore, &s, dt_f, Z));
   if (project && pore->coupling_scheme == PG_SCHEME_INCREMENTAL)
     PetscCall(PgPressureLaplacian(pore, &s, pore->a));
   else

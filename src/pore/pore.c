@@ -313,6 +313,7 @@ PetscErrorCode PgPoreDestroy(PgPore *pore)
 {
   PetscFunctionBeginUser;
   if (!*pore) PetscFunctionReturn(0);
+  PetscCall(PgOverlapsDestroy(&(*pore)->overlaps));
   PetscCall(PetscFree5((*pore)->grad_p, (*pore)->grad_u, (*pore)->n_flow, (*pore)->head, (*pore)->Z));
   PetscCall(PetscFree2((*pore)->a, (*pore)->b));
   PetscCall(PgPressureDestroy(&(*pore)->pressure));

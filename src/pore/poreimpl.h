@@ -24,6 +24,17 @@ typedef struct {
   PetscErrorCode (*correct)(PgPore pore, PetscReal dt_f);
 } PgFluidScheme;
 
+/* Overlaps of discs with sample circles. */
+typedef struct {
+  PetscInt   revision;       /* of the lists */
+  PetscInt   pairs, entries; /* capacities */
+  PetscInt   count, all;     /* to be computed: by the vector loop, and with those of much larger discs */
+  PetscInt  *circle, *disc;  /* whose circle, which disc (local indices) */
+  PetscInt  *at, *too; /* entries of the row list that take the result, the same one twice unless radii are equal */
+  PetscReal *area;     /* by entry of the row list [m2] */
+  char      *inside;   /* by entry: the centre of the disc is in the circle */
+} PgOverlaps;
+
 struct PgPore_s {
   PgParticles          particles;
   PgNeighbors          neighbors;
@@ -72,6 +83,8 @@ struct PgPore_s {
   PetscReal *Z;      /* (1) */
   PetscInt   grad_p_revision;
 
+  PgOverlaps overlaps;
+
   const char *advice, *side_advice; /* what to change, appended to the message of the guard */
   PgPoreStats stats;
   PetscInt    clipped, characteristic_failures; /* of this rank in this step */
@@ -90,15 +103,18 @@ typedef struct {
 PETSC_INTERN PetscErrorCode PgPoreGetArrays(PgPore pore, PgPoreArrays *arrays);
 PETSC_INTERN PetscErrorCode PgPoreReserve(PgPore pore);
 
-/* area_loop.c: area of discs inside the circle of radius circle*r_a about each owned disc */
-PETSC_INTERN void PgSolidAreaLoop(PetscInt owned, const PgRowList *list, PetscReal circle, const PetscReal x[],
-                                  const PetscReal radius[], PetscReal area[]);
+/* overlaps.c, area_loop.c: area of each disc of the row list inside the circle of radius circle*r_a about its owner, and
+   whether its centre lies in it */
+PETSC_INTERN PetscErrorCode PgOverlapsUpdate(PgPore pore, PetscReal circle);
+PETSC_INTERN PetscErrorCode PgOverlapsDestroy(PgOverlaps *overlaps);
+PETSC_INTERN void           PgOverlapLoop(const PgOverlaps *overlaps, PetscReal circle, const PetscReal x[],
+                                          const PetscReal radius[]);
 PETSC_INTERN PetscErrorCode PgPorosityCalibrate(PgPore pore);
 PETSC_INTERN PetscErrorCode PgPorosityUpdate(PgPore pore, PetscReal dt_f);
-/* div v and Dn/Dt along the discs [1/s], from the velocities v* at the end of the step: kinematic,
-   (1 - n) div v, or the difference of the sampled porosities of both ends. */
-PETSC_INTERN PetscErrorCode PgPorosityChange(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, PetscReal divergence[],
-                                             PetscReal rate[]);
+/* Dn/Dt along the discs [1/s]: kinematic, (1 - n) div v with the velocities v* at the end of the step, or the difference
+   of the sampled porosities of both ends. */
+PETSC_INTERN PetscErrorCode PgPorosityDerivative(PgPore pore, const PgPoreArrays *s, PetscReal dt_f,
+                                                 const PetscReal divergence[], PetscReal rate[]);
 PETSC_INTERN PetscErrorCode PgPoreVolumes(PgPore pore);
 
 PETSC_INTERN PetscErrorCode PgBoundaryStart(PgPore pore);

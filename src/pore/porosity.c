@@ -6,15 +6,15 @@ static const PetscReal sample_radius = 4.0;
 
 PetscReal PgLensArea(PetscReal R, PetscReal r, PetscReal d)
 {
-  PetscReal x, X, ca, cb;
+  PetscReal x, X, h;
 
   if (d >= R + r) return 0.0;
   if (d <= PetscAbsReal(R - r)) return PETSC_PI * PetscMin(R, r) * PetscMin(R, r);
-  X  = (d * d + R * R - r * r) / (2.0 * d); /* of the chord, from the centre of R */
-  x  = d - X;
-  ca = PetscMax(-1.0, PetscMin(1.0, X / R));
-  cb = PetscMax(-1.0, PetscMin(1.0, x / r));
-  return R * R * PetscAcosReal(ca) + r * r * PetscAcosReal(cb) - d * PetscSqrtReal(PetscMax(0.0, R * R - X * X));
+  X = (d * d + (R - r) * (R + r)) / (2.0 * d); /* of the chord, from the centre of R */
+  x = d - X;
+  /* half the chord, from the sides of the triangle: no difference of squares, so that a thin lens keeps its digits */
+  h = PetscSqrtReal(PetscMax(0.0, (R + r - d) * (d + r - R) * (d - r + R) * (d + r + R))) / (2.0 * d);
+  return R * R * PetscAtan2Real(h, X) + r * r * PetscAtan2Real(h, x) - d * h;
 }
 
 /* Area of discs inside the sample circle of each owned disc, the disc itself first, then by id. */
@@ -24,7 +24,14 @@ static PetscErrorCode SolidArea(PgPore pore, const PgPoreArrays *s, PetscReal ar
 
   PetscFunctionBeginUser;
   PetscCall(PgNeighborsGetRows(pore->neighbors, &list));
-  PgSolidAreaLoop(s->owned, &list, sample_radius, s->x, s->radius, area);
+  PetscCall(PgOverlapsUpdate(pore, sample_radius));
+  PgOverlapLoop(&pore->overlaps, sample_radius, s->x, s->radius);
+  for (PetscInt a = 0; a < s->owned; a++) {
+    const PetscInt end = list.ptr[a + 1];
+    PetscReal      sum = PETSC_PI * s->radius[a] * s->radius[a];
+    for (PetscInt k = list.ptr[a]; k < end; k++) sum += pore->overlaps.area[k];
+    area[a] = sum;
+  }
   PetscFunctionReturn(0);
 }
 
@@ -52,23 +59,21 @@ static PetscErrorCode SolidFraction(PgPore pore, const PgPoreArrays *s, PetscRea
   PetscFunctionReturn(0);
 }
 
-/* n_a: mean of the samples of the discs whose centres lie in the circle of a, Eq. 62. */
+/* n_a: mean of the samples of the discs whose centres lie in the circle of a, Eq. 62, as SolidArea() has found them. */
 static PetscErrorCode MeanOfSamples(PgPore pore, const PgPoreArrays *s, const PetscReal sample[], PetscReal n[])
 {
-  PgRowList list;
+  const char *inside = pore->overlaps.inside;
+  PgRowList   list;
 
   PetscFunctionBeginUser;
   PetscCall(PgNeighborsGetRows(pore->neighbors, &list));
   for (PetscInt a = 0; a < s->owned; a++) {
-    const PetscReal R     = sample_radius * s->radius[a];
-    PetscReal       sum   = sample[a];
-    PetscInt        count = 1;
-    for (PetscInt k = list.ptr[a]; k < list.ptr[a + 1]; k++) {
-      const PetscInt  b  = list.col[k];
-      const PetscReal dx = s->x[2 * b] - s->x[2 * a], dy = s->x[2 * b + 1] - s->x[2 * a + 1];
-      if (dx * dx + dy * dy > R * R) continue;
-      sum += sample[b];
-      count++;
+    const PetscInt end   = list.ptr[a + 1];
+    PetscReal      sum   = sample[a];
+    PetscInt       count = 1;
+    for (PetscInt k = list.ptr[a]; k < end; k++) {
+      sum += sample[list.col[k]] * inside[k]; /* by 0 or 1 */
+      count += inside[k];
     }
     n[a] = sum / (PetscReal)count;
   }
@@ -169,13 +174,12 @@ PetscErrorCode PgPoreVolumes(PgPore pore)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgPorosityChange(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, PetscReal divergence[],
-                                PetscReal rate[])
+PetscErrorCode PgPorosityDerivative(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, const PetscReal divergence[],
+                                    PetscReal rate[])
 {
   PetscReal *before;
 
   PetscFunctionBeginUser;
-  PetscCall(PgSphDivergence(pore->sph, s->v, divergence));
   if (pore->rate_kind == PG_RATE_SAMPLED) {
     PetscCall(PgParticlesGetArray(pore->particles, pore->porosity_before, &before));
     for (PetscInt a = 0; a < s->owned; a++) rate[a] = (s->n[a] - before[a]) / dt_f;

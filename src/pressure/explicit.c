@@ -11,7 +11,7 @@ static PetscErrorCode Update(PgPressure q)
 }
 
 /* One sweep. When asked, *residual takes the sum of (D (x_new - x_old))^2: the squared residual before the sweep. */
-static PetscErrorCode Sweep(PgPressure q, PetscReal p[], const PetscReal fixed[], PgExactSum *residual)
+PG_CLONES static PetscErrorCode Sweep(PgPressure q, PetscReal p[], const PetscReal fixed[], PgExactSum *residual)
 {
   PetscFunctionBeginUser;
   for (PetscInt a = 0; a < q->owned; a++) {

@@ -21,7 +21,8 @@ static PetscErrorCode Reserve(PgPressure q)
    will do. In two dimensions the diagonal has no unit; on the hexagonal lattice it is 4.3 kappa. */
 static const PetscReal lone_diagonal = 4.0;
 
-static void WeighRows(PgPressure q, const PetscReal laplacian[], const PetscReal volume[], const PetscReal kappa[])
+PG_CLONES static void WeighRows(PgPressure q, const PetscReal laplacian[], const PetscReal volume[],
+                                const PetscReal kappa[])
 {
   for (PetscInt a = 0; a < q->owned; a++) {
     PetscReal sum = 0.0;

@@ -9,34 +9,40 @@
 static const PetscReal largest_gradient_correction  = 10.0;
 static const PetscReal largest_laplacian_correction = 5.0;
 
-PetscErrorCode PgSphCorrectGradient(PgSph sph)
+PG_CLONES PetscErrorCode PgSphCorrectGradient(PgSph sph)
 {
-  const PgRowList list = sph->list;
-  PetscReal      *x;
-  PetscInt        owned;
+  const PgRowList  list     = sph->list;
+  PetscReal *const gradient = sph->gradient, *x;
+  PetscInt         owned;
 
   PetscFunctionBeginUser;
   PetscCall(PgParticlesGetSizes(sph->particles, &owned, NULL, NULL));
   PetscCall(PgParticlesGetArray(sph->particles, PG_POSITION, &x));
   for (PetscInt a = 0; a < owned; a++) {
-    PetscReal m[4] = {0, 0, 0, 0}, det, norm;
-    for (PetscInt k = list.ptr[a]; k < list.ptr[a + 1]; k++) {
-      const PetscReal dx = x[2 * list.col[k]] - x[2 * a], dy = x[2 * list.col[k] + 1] - x[2 * a + 1];
-      m[0] += sph->gradient[2 * k] * dx;
-      m[1] += sph->gradient[2 * k] * dy;
-      m[2] += sph->gradient[2 * k + 1] * dx;
-      m[3] += sph->gradient[2 * k + 1] * dy;
+    const PetscInt begin = list.ptr[a], end = list.ptr[a + 1];
+    const PgReal2  here = PgTwo(x, a);
+    PgReal2        mx = {0, 0}, my = {0, 0}, cx, cy; /* sum gradient dx, sum gradient dy; what takes their place */
+    PetscReal      det, norm;
+
+    for (PetscInt k = begin; k < end; k++) {
+      const PetscInt b = list.col[k];
+      const PgReal2  g = PgTwo(gradient, k), d = PgTwo(x, b) - here;
+      mx += g * d[0];
+      my += g * d[1];
     }
-    det  = m[0] * m[3] - m[1] * m[2];
-    norm = PetscSqrtReal(m[0] * m[0] + m[1] * m[1] + m[2] * m[2] + m[3] * m[3]); /* of the inverse, times |det| */
+    det  = mx[0] * my[1] - my[0] * mx[1];
+    norm = PetscSqrtReal(mx[0] * mx[0] + my[0] * my[0] + mx[1] * mx[1] +
+                         my[1] * my[1]); /* of the inverse, times |det| */
     if (!(PetscAbsReal(det) * largest_gradient_correction > norm)) {
       sph->gradient_fallbacks++;
       continue;
     }
-    for (PetscInt k = list.ptr[a]; k < list.ptr[a + 1]; k++) {
-      const PetscReal gx = sph->gradient[2 * k], gy = sph->gradient[2 * k + 1];
-      sph->gradient[2 * k]     = (m[3] * gx - m[1] * gy) / det;
-      sph->gradient[2 * k + 1] = (m[0] * gy - m[2] * gx) / det;
+    cx = (PgReal2){my[1], -mx[1]} / det;
+    cy = (PgReal2){-my[0], mx[0]} / det;
+    for (PetscInt k = begin; k < end; k++) {
+      const PgReal2 g     = cx * gradient[2 * k] + cy * gradient[2 * k + 1];
+      gradient[2 * k]     = g[0];
+      gradient[2 * k + 1] = g[1];
     }
   }
   PetscFunctionReturn(0);

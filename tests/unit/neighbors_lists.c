@@ -80,6 +80,31 @@ static PetscInt CheckContacts(PgParticles particles, PgNeighbors neighbors, cons
   return list.ptr[owned];
 }
 
+/* Every entry belongs to one pair, at the end that its row and column say. */
+static void CheckEnds(const PgRowList *list, PetscInt owned)
+{
+  const PetscInt entries = list->ptr[owned];
+  PetscInt      *row, *met;
+
+  OK(PetscMalloc2(entries + 1, &row, entries + 1, &met));
+  OK(PetscArrayzero(met, entries + 1));
+  for (PetscInt i = 0; i < owned; i++)
+    for (PetscInt k = list->ptr[i]; k < list->ptr[i + 1]; k++) row[k] = i;
+  for (PetscInt q = 0; q < list->pairs; q++) {
+    const PetscInt a = list->one_at[q], b = list->two_at[q];
+    assert_true(a < entries && row[a] == list->one[q] && list->col[a] == list->two[q]);
+    met[a]++;
+    if (list->two[q] >= owned) {
+      assert_int_equal((int)b, (int)entries);
+    } else {
+      assert_true(b < entries && row[b] == list->two[q] && list->col[b] == list->one[q]);
+      met[b]++;
+    }
+  }
+  for (PetscInt k = 0; k < entries; k++) assert_int_equal((int)met[k], 1);
+  OK(PetscFree2(row, met));
+}
+
 static PetscInt CheckRows(PgParticles particles, PgNeighbors neighbors, const PetscReal x[], const PetscReal r[],
                           PetscReal skin, PetscReal length)
 {
@@ -104,6 +129,7 @@ static PetscInt CheckRows(PgParticles particles, PgNeighbors neighbors, const Pe
     }
   }
   OK(PetscFree2(partner, at));
+  CheckEnds(&list, owned);
   return list.ptr[owned];
 }
 

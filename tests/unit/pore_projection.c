@@ -109,6 +109,8 @@ static After StepInPlace(Ground *g)
   s.div_tilde  = New(s.owned);
   s.div_drag   = New(s.owned);
   CHECK(PgSphGetCoefficients(g->sph, &s.c));
+  /* ghosts, which the step itself does not need */
+  CHECK(PgParticlesHalo(g->particles, 2, (const PgField[]){GroundField(g, "fluid_predictor"), GroundField(g, "drag")}));
   CHECK(PgSphGradient(g->sph, s.p, s.grad));
   CHECK(PgParticlesHalo(g->particles, 1, &gradient));
   CHECK(PgSphDivergence(g->sph, s.grad, s.wide));
