@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ground.h"
+#include "verify.h"
 
 /* About as high as wide. */
 static inline Packing SquarePacking(PetscInt columns, PetscReal width, PetscReal jitter)
@@ -61,6 +62,30 @@ static inline void SequenceAdd(Sequence *s, Ground *g, PetscReal h, PetscReal er
   else
     CHECK(PetscPrintf(g->comm, "%-52s %7" PetscInt_FMT " %10.3e %11.4e %7.2f\n", s->name, g->count, (double)h,
                       (double)error, (double)SequenceOrder(s)));
+}
+
+/* Lines of the table of verification. What they state is asserted by the test that calls them. */
+static inline void SequenceLine(const char what[], const Sequence *s, PetscReal order, const char tolerance[],
+                                const char reason[])
+{
+  char reference[32], found[32], error[32];
+
+  (void)snprintf(reference, sizeof reference, "order %g", (double)order);
+  (void)snprintf(found, sizeof found, "%.2f", (double)SequenceOrder(s));
+  (void)snprintf(error, sizeof error, "%.2e", (double)s->error[s->count - 1]);
+  VerifyLine(what, s->name, reference, found, error, found, tolerance, reason);
+}
+
+static inline void PlateauLine(const char what[], const char name[], PetscReal plateau, PetscReal value,
+                               const char tolerance[], const char reason[])
+{
+  char quantity[128], reference[32], found[32], error[32];
+
+  (void)snprintf(quantity, sizeof quantity, "%s", name);
+  (void)snprintf(reference, sizeof reference, "%.4g", (double)plateau);
+  (void)snprintf(found, sizeof found, "%.4g", (double)value);
+  (void)snprintf(error, sizeof error, "%.1e", (double)PetscAbsReal(value / plateau - 1.0));
+  VerifyLine(what, quantity, reference, found, error, "", tolerance, reason);
 }
 
 /* ---- p = sin(pi X) sin(pi Y) + linear, X and Y running from 0 to 1 in a box ---- */

@@ -3,7 +3,7 @@
 # found to FILE (docs/verification.md beside this script by default). No table comes from a run in which a test fails.
 #
 # A test prints lines "VERIFY | case | quantity | reference | computed | error | order | tolerance | reason". A line that
-# comes again, from another number of ranks, is shown once; one that comes with other values is shown with them.
+# comes again with the same reference, from another number of ranks, is shown once: as it came first, on one rank.
 set -euo pipefail
 
 [ $# -ge 1 ] && [ -f "$1/CTestTestfile.cmake" ] || {
@@ -11,7 +11,8 @@ set -euo pipefail
   exit 2
 }
 build=$1
-file=${2:-$(cd "$(dirname "$0")/../.." && pwd)/docs/verification.md}
+here=$(cd "$(dirname "$0")" && pwd)
+file=${2:-$(cd "$here/../.." && pwd)/docs/verification.md}
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 
@@ -21,7 +22,7 @@ if ! ctest --test-dir "$build" -L verify -V >"$log" 2>&1; then
   exit 1
 fi
 
-awk '
+awk -v intro="$here/verification_intro.md" -v breaks="$here/verification_breaks.md" '
   function trim(s) { gsub(/^[ \t]+|[ \t]+$/, "", s); return s }
   { sub(/\r$/, ""); sub(/^[0-9]+: /, "") }
   /^SKIP: / { skipped[skips++] = substr($0, 7) }
@@ -30,21 +31,17 @@ awk '
     if (n != 9) { print "not 8 columns: " $0 > "/dev/stderr"; bad = 1; next }
     row = ""
     for (k = 2; k <= n; k++) row = row " " trim(field[k]) " |"
-    if (row in seen) next
-    seen[row] = 1
     what = trim(field[2])
+    line = what SUBSEP trim(field[3]) SUBSEP trim(field[4])
+    if (line in seen) next
+    seen[line] = 1
     if (!(what in first)) { first[what] = cases; name[cases++] = what }
     rows[what, count[what]++] = "|" row
     total++
   }
   END {
     if (bad || !total) exit 1
-    print "# Verification\n"
-    print "Written by `tests/support/verification_table.sh BUILD`, which runs `ctest -L verify` and collects what the tests print;"
-    print "not to be edited. Every line is asserted by its test on each number of ranks, unless its tolerance says `reported`."
-    print "Error is relative to the reference unless that is 0 or the quantity says otherwise; an order is that of the last"
-    print "refinement, and every refinement must reach the tolerance. What a case is stands at the top of `src/cases/NAME.c` or of"
-    print "the test in `tests/verify`.\n"
+    while ((getline text < intro) > 0) print text
     for (c = 0; c < cases; c++) {
       print "## " name[c] "\n"
       print "| quantity | reference | computed | error | order | tolerance | reason |"
@@ -55,6 +52,7 @@ awk '
       }
       print ""
     }
+    while ((getline text < breaks) > 0) print text
     if (skips) { print "## Left out in this run\n"; for (k = 0; k < skips; k++) print "- " skipped[k] }
   }' "$log" >"$file.new" || { rm -f "$file.new"; echo "no usable VERIFY lines" >&2; exit 1; }
 mv "$file.new" "$file"

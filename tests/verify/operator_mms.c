@@ -67,7 +67,10 @@ static void Errors(Ground *g, const Packing *packing, PetscReal *gradient, Petsc
 static void Judge(const Sequence *s, PetscReal order, PetscReal plateau)
 {
   const PetscReal found = SequenceOrder(s), last = s->error[s->count - 1];
+  char            name[128];
 
+  SequenceLine("operator_mms", s, order, order > 0.0 ? "order - 0.2 at least" : "order within 0.15",
+               "next term of the expansion at these h");
   if (order > 0.0) {
     /* what the next term of the expansion may do at these h */
     if (!(found >= order - 0.2)) fail_msg("%s: order %g instead of %g", s->name, (double)found, (double)order);
@@ -77,7 +80,10 @@ static void Judge(const Sequence *s, PetscReal order, PetscReal plateau)
   NEAR(found, order, 0.15);
   /* the term of order h^2 is about (pi h)^2/8 = 2e-4 relative to 1 at the last refinement, against the smallest plateau of
      0.0114: 2 %; and the digits given */
-  if (plateau > 0.0) NEAR(last, plateau, 0.03 * plateau);
+  if (plateau <= 0.0) return;
+  (void)snprintf(name, sizeof name, "%s: error that stays", s->name);
+  PlateauLine("operator_mms", name, plateau, last, "3 %", "term of order h^2, digits of the plateau");
+  NEAR(last, plateau, 0.03 * plateau);
 }
 
 static void OperatorMms(void **state)

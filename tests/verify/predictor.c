@@ -101,6 +101,8 @@ static void Predictor(void **state)
     pressure = SequenceStart(name);
     for (PetscInt i = 0; i < 4; i++)
       Step(&cases[k], cases[k].smooth ? 20 << i : 30, 0.04 / (PetscReal)(1 << i), &velocity, &pressure);
+    SequenceLine("predictor", &velocity, cases[k].order_u, "order within 0.2", "next term at the smallest dt");
+    SequenceLine("predictor", &pressure, cases[k].order_p, "order within 0.2", "next term at the smallest dt");
     /* what the next term may do at the smallest dt */
     NEAR(SequenceOrder(&velocity), cases[k].order_u, 0.2);
     NEAR(SequenceOrder(&pressure), cases[k].order_p, 0.2);

@@ -100,7 +100,14 @@ static void DirichletError(const Case *c, PetscInt columns, Sequence *s, Sequenc
 static void JudgeDirichlet(const Case *c, const Sequence *s, PetscReal size)
 {
   const PetscInt k = s->count - 1;
+  char           name[128];
 
+  SequenceLine("pressure_mms", s, c->order, c->order > 0.0 ? "order - 0.2 at least, error < 2e-4" : "order within 0.25",
+               "next term of the expansion at these h");
+  (void)snprintf(name, sizeof name, "%s: size of p for h to 0", c->name);
+  if (c->factor > 0.0)
+    PlateauLine("pressure_mms", name, 1.0 / c->factor, size, "4e-4",
+                "1/k of the lattice; digits of k, term of order h^2");
   if (c->order > 0.0) {
     /* what the next term of the expansion may do at these h */
     if (!(SequenceOrder(s) >= c->order - 0.2)) fail_msg("%s: order %g", s->name, (double)SequenceOrder(s));
@@ -215,6 +222,7 @@ static void Natural(void **state)
     s[1] = SequenceStart(name[0]);
     s[2] = SequenceStart(name[1]);
     for (PetscInt columns = 25; columns <= 200; columns *= 2) NaturalError(&dirichlet[k], columns, amplitude[k], s);
+    SequenceLine("pressure_mms", &s[1], 1.0, "order within 0.2", "part of h^2 from the corners");
     /* 1, and a part of h^2 from the corners */
     NEAR(SequenceOrder(&s[1]), 1.0, 0.2);
     /* against p itself the error stays where |1/k - 1| = 0.08 or 0.09; the other plateaus are hidden below the error in
