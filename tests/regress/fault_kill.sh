@@ -1,12 +1,11 @@
 # processors: 2
-# preset: long
 # timeout: 3000
 # kill -9 at random moments of a run that spends most of its time writing: there is always a checkpoint to go on
 # from, the result file can be read up to its last complete snapshot, and in the end all is as if nothing had
-# happened. (Six kills; fault_kill_long.sh makes it fifty.)
+# happened. (Five kills; fault_kill_long.sh makes it fifty.)
 . "$SOURCE_DIR/tests/support/regress.sh"
 
-kills=${KILLS:-6}
+kills=${KILLS:-5}
 seed=${SEED:-$(($(date +%s) % 32768))}
 RANDOM=$seed
 echo "seed $seed (SEED=$seed repeats the sequence)"

@@ -1,5 +1,4 @@
 # processors: 2
-# preset: long
 # timeout: 600
 # Every registered case goes on from its checkpoints with the same bits: walls, servo walls, periodic packings, energy
 # accounts, gravity.
