@@ -110,11 +110,11 @@ static void TakeLengths(Dump *d, int64_t nonzeros)
 
     Take(d, bytes, (size_t)count * sizeof(PetscInt));
     for (int k = 0; k < count && !d->reason[0]; k++) {
-      const int64_t length = Integer(bytes + (size_t)k * sizeof(PetscInt));
+      const int64_t   length = Integer(bytes + (size_t)k * sizeof(PetscInt));
+      const long long row    = at + k;
 
       if (length < 0 || length > d->rows)
-        Refuse(d, "row %lld has %lld nonzeros, it can have at most %lld", (long long)(at + k), (long long)length,
-               (long long)d->rows);
+        Refuse(d, "row %lld has %lld nonzeros, it can have at most %lld", row, (long long)length, (long long)d->rows);
       d->length[at + k] = length;
       sum += length;
     }
@@ -163,8 +163,9 @@ static void TakeValues(Dump *d, int64_t count)
 
     Take(d, bytes, (size_t)got * sizeof(PetscReal));
     for (int k = 0; k < got && !d->reason[0]; k++) {
-      const double x = Real(bytes + (size_t)k * sizeof(PetscReal));
-      if (!isfinite(x)) Refuse(d, "value %lld is not finite (%g)", (long long)(at + k), x);
+      const double    x  = Real(bytes + (size_t)k * sizeof(PetscReal));
+      const long long in = at + k;
+      if (!isfinite(x)) Refuse(d, "value %lld is not finite (%g)", in, x);
     }
   }
 }
