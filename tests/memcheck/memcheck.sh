@@ -43,7 +43,12 @@ start() {
 }
 
 if [ $# -eq 0 ]; then
-  for program in "$BUILD_DIR"/tests/test-unit-*; do start "$(basename "$program")" "$program"; done
+  for source in "$SOURCE_DIR"/tests/unit/*.c; do
+    name=$(basename "$source" .c)
+    ranks=$(sed -n '1,5s/.*ranks: *\([0-9 ]*\).*/\1/p' "$source")
+    [[ " ${ranks:-1} " == *' 1 '* ]] || continue # it needs several
+    start "test-unit-$name" "$BUILD_DIR/tests/test-unit-$name"
+  done
   panel=(-case panel -panel_columns 4 -dt 2e-6 -end_time 6e-5 -output_every 2e-5 -history_every 1e-5 -neighbors_skin 1e-4
     -output run.h5 -checkpoint run.pgc -checkpoint_every 2e-5)
   start panel-dry "$POROGRAIN" "${panel[@]}" -fluid none -dem_local_damping 0.7 -dem_energy
