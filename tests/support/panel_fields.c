@@ -54,6 +54,14 @@ static double *Read(hid_t file, int snapshot, const char name[], size_t columns,
   return values;
 }
 
+static void *Allocate(size_t count, size_t size)
+{
+  void *memory = calloc(count + 1, size);
+
+  if (!memory) exit(2);
+  return memory;
+}
+
 static double Distance(const double x[], size_t a, size_t b)
 {
   return hypot(x[2 * a] - x[2 * b], x[2 * a + 1] - x[2 * b + 1]);
@@ -62,9 +70,8 @@ static double Distance(const double x[], size_t a, size_t b)
 /* Mean over the neighbours at the start that are still there. */
 static double *Smooth(const Panel *p, const double raw[])
 {
-  double *mean = calloc(p->n, sizeof *mean);
+  double *mean = Allocate(p->n, sizeof *mean);
 
-  if (!mean) exit(2);
   for (size_t a = 0; a < p->n; a++) {
     double sum = 0.0, count = 0.0;
     for (size_t b = 0; b < p->n; b++)
@@ -122,10 +129,9 @@ static int Descending(const void *a, const void *b)
 
 static void FindBand(Panel *p, Found *f)
 {
-  double *order = calloc(p->n, sizeof *order), total = 0.0, inside = 0.0, bound;
+  double *order = Allocate(p->n, sizeof *order), total = 0.0, inside = 0.0, bound;
   size_t  count = 0;
 
-  if (!order) exit(2);
   for (size_t a = 0; a < p->n; a++)
     if (!p->gone[a]) order[count++] = p->strain[a];
   qsort(order, count, sizeof *order, Descending);
@@ -189,8 +195,8 @@ static int Look(hid_t file, int snapshot, Panel *p, const size_t mirror[], Found
   p->volumetric = Read(file, snapshot, "volumetric_strain", 1, &n[3]);
   p->porosity   = Read(file, snapshot, "porosity", 1, &n[4]);
   p->w          = Read(file, snapshot, "relative_velocity", 2, &n[5]);
-  if (!p->porosity) p->porosity = calloc(p->n, sizeof *p->porosity); /* dry */
-  if (!p->w) p->w = calloc(2 * p->n, sizeof *p->w);
+  if (!p->porosity) p->porosity = Allocate(p->n, sizeof *p->porosity); /* dry */
+  if (!p->w) p->w = Allocate(2 * p->n, sizeof *p->w);
   if (!raw || !p->x || !p->rotation || !p->volumetric || !p->porosity || !p->w) exit(2);
   for (size_t a = 0; a < p->n; a++)
     p->gone[a] = (char)(p->porosity[a] > most_porosity || p->volumetric[a] > most_growth);
@@ -238,13 +244,17 @@ int main(int argc, char *argv[])
   }
   p.start = Read(file, 0, "position", 2, &p.n);
   p.r     = Read(file, 0, "radius", 1, &rows);
-  p.band  = calloc(p.n + 1, 1);
-  p.gone  = calloc(p.n + 1, 1);
-  mirror  = calloc(p.n + 1, sizeof *mirror);
-  if (!p.start || !p.r || rows != p.n || !p.band || !p.gone || !mirror) return 2;
+  p.band  = Allocate(p.n, 1);
+  p.gone  = Allocate(p.n, 1);
+  mirror  = Allocate(p.n, sizeof *mirror);
+  if (!p.start || !p.r || rows != p.n) exit(2);
   for (size_t a = 0; a < p.n; a++) mirror[a] = Mirror(&p, a);
   while (count < MOST && Look(file, count + 1, &p, mirror, &found[count])) count++;
-  if (!count) return 2;
-  Report(argv[1], found, count);
-  return H5Fclose(file) < 0;
+  if (count) Report(argv[1], found, count);
+  double *const old[] = {p.start, p.r};
+  for (size_t i = 0; i < sizeof old / sizeof *old; i++) free(old[i]);
+  free(p.band);
+  free(p.gone);
+  free(mirror);
+  return H5Fclose(file) < 0 || !count ? 2 : 0;
 }
