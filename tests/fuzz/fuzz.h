@@ -10,9 +10,15 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerInitialize(int *argc, char ***argv);
 
-static void Demand(int condition)
+#define Demand(condition)                                                                                              \
+  do {                                                                                                                 \
+    if (!(condition)) Broken(#condition, __FILE__, __LINE__);                                                          \
+  } while (0)
+
+static inline void Broken(const char condition[], const char file[], int line)
 {
-  if (!condition) abort();
+  (void)fprintf(stderr, "%s:%d: not so: %s\n", file, line, condition);
+  abort();
 }
 
 /* The arguments of the fuzzer are not for PETSc. */
@@ -21,6 +27,7 @@ static inline void FuzzStart(void)
   static char name[] = "fuzz", *list[] = {name, NULL}, **arguments = list;
   static int  count = 1;
 
+  (void)setenv("OMPI_MCA_opal_signal", "", 1); /* OpenMPI would catch abort() before the fuzzer saves its input */
   Demand(!PgInitialize(&count, &arguments, NULL));
   Demand(!PetscOptionsClear(NULL)); /* of the environment */
 }
