@@ -17,21 +17,13 @@ static PetscBool IsSettled(PetscReal R, PetscReal r, PetscReal d, PetscReal way,
   return (PetscBool)(2.0 * r <= R && (d + way < R - r || d - way > R + r));
 }
 
-static void Add(PgOverlaps *o, PetscInt i, PetscInt circle, PetscInt disc, PetscInt at, PetscInt too)
-{
-  o->circle[i] = circle;
-  o->disc[i]   = disc;
-  o->at[i]     = at;
-  o->too[i]    = too;
-}
-
-/* From both ends: those for the vector loop, and those of discs more than twice as large as the other. */
+/* Calls for each overlap that may change, from both ends of each pair; `fill` writes them, without it they are counted:
+   first those for the vector loop, then those of discs more than twice as large as the other. */
 static void Sort(const PgRowList *list, PetscReal circle, const PetscReal x[], const PetscReal radius[], PetscReal way,
-                 PgOverlaps *o)
+                 PetscBool fill, PgOverlaps *o)
 {
-  PetscInt end = 2 * list->pairs, wide = end;
+  PetscInt n[2] = {0, fill ? o->count : 0}; /* next of either kind */
 
-  o->count = 0;
   for (PetscInt q = 0; q < list->pairs; q++) {
     const PetscInt  disc[2] = {list->one[q], list->two[q]}, at[2] = {list->one_at[q], list->two_at[q]};
     const PetscReal dx = x[2 * disc[1]] - x[2 * disc[0]], dy = x[2 * disc[1] + 1] - x[2 * disc[0] + 1];
@@ -40,15 +32,20 @@ static void Sort(const PgRowList *list, PetscReal circle, const PetscReal x[], c
 
     for (int c = 0; c < 2; c++) {
       const PetscReal R = circle * radius[disc[c]], r = radius[disc[1 - c]];
-      if (IsSettled(R, r, d, way, &o->area[at[c]], &o->inside[at[c]])) continue;
-      if (2.0 * r > R)
-        Add(o, --wide, disc[c], disc[1 - c], at[c], at[c]);
-      else if (!same || c == 0)
-        Add(o, o->count++, disc[c], disc[1 - c], at[c], same ? at[1] : at[c]);
+      const PetscInt  i = n[2.0 * r > R];
+      if (IsSettled(R, r, d, way, &o->area[at[c]], &o->inside[at[c]]) || (same && c == 1)) continue;
+      if (fill) {
+        o->circle[i] = disc[c];
+        o->disc[i]   = disc[1 - c];
+        o->at[i]     = at[c];
+        o->too[i]    = same ? at[1] : at[c];
+      }
+      n[2.0 * r > R]++;
     }
   }
-  o->all = o->count;
-  for (PetscInt i = wide; i < end; i++, o->all++) Add(o, o->all, o->circle[i], o->disc[i], o->at[i], o->too[i]);
+  if (fill) return;
+  o->count = n[0];
+  o->all   = n[0] + n[1];
 }
 
 PetscErrorCode PgOverlapsUpdate(PgPore pore, PetscReal circle)
@@ -66,15 +63,18 @@ PetscErrorCode PgOverlapsUpdate(PgPore pore, PetscReal circle)
   PetscCall(PgNeighborsGetRows(pore->neighbors, &list));
   PetscCall(PgNeighborsGetSkin(pore->neighbors, &skin));
   PetscCall(PgPoreGetArrays(pore, &s));
-  if (!o->circle || list.pairs > o->pairs || list.ptr[s.owned] > o->entries) {
-    PetscCall(PgOverlapsDestroy(o));
-    o->pairs   = list.pairs + list.pairs / 8;
+  if (!o->area || list.ptr[s.owned] > o->entries) {
     o->entries = list.ptr[s.owned] + list.ptr[s.owned] / 8;
-    PetscCall(PetscMalloc4(2 * o->pairs + 1, &o->circle, 2 * o->pairs + 1, &o->disc, 2 * o->pairs + 1, &o->at,
-                           2 * o->pairs + 1, &o->too));
+    PetscCall(PetscFree2(o->area, o->inside));
     PetscCall(PetscMalloc2(o->entries + 1, &o->area, o->entries + 1, &o->inside)); /* see two_at of PgRowList */
   }
   /* of two discs, each at most half the skin from where it was at the build: now, and whenever the lists serve */
-  Sort(&list, circle, s.x, s.radius, 2.0 * skin, o);
+  Sort(&list, circle, s.x, s.radius, 2.0 * skin, PETSC_FALSE, o);
+  if (!o->circle || o->all > o->capacity) {
+    o->capacity = o->all + o->all / 8 + 1;
+    PetscCall(PetscFree4(o->circle, o->disc, o->at, o->too));
+    PetscCall(PetscMalloc4(o->capacity, &o->circle, o->capacity, &o->disc, o->capacity, &o->at, o->capacity, &o->too));
+  }
+  Sort(&list, circle, s.x, s.radius, 2.0 * skin, PETSC_TRUE, o);
   PetscFunctionReturn(0);
 }

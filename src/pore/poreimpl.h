@@ -26,10 +26,10 @@ typedef struct {
 
 /* Overlaps of discs with sample circles. */
 typedef struct {
-  PetscInt   revision;       /* of the lists */
-  PetscInt   pairs, entries; /* capacities */
-  PetscInt   count, all;     /* to be computed: by the vector loop, and with those of much larger discs */
-  PetscInt  *circle, *disc;  /* whose circle, which disc (local indices) */
+  PetscInt   revision;          /* of the lists */
+  PetscInt   capacity, entries; /* of what is computed, of entries of the row list */
+  PetscInt   count, all;        /* to be computed: by the vector loop, and with those of much larger discs */
+  PetscInt  *circle, *disc;     /* whose circle, which disc (local indices) */
   PetscInt  *at, *too; /* entries of the row list that take the result, the same one twice unless radii are equal */
   PetscReal *area;     /* by entry of the row list [m2] */
   char      *inside;   /* by entry: the centre of the disc is in the circle */
