@@ -250,7 +250,8 @@ PetscErrorCode PgSimulationSetUp(PgSimulation sim)
   sim->setup.end_time = asked_end;
   PetscCall(SetUpTime(sim, case_end));
   PetscCall(PgParticlesGetIdRange(sim->particles, &start, &ids));
-  if (sim->output_file[0] || sim->checkpoint_file[0]) { /* 300 bytes a disc that a run without snapshots does not need */
+  if (sim->output_file[0] ||
+      sim->checkpoint_file[0]) { /* 300 bytes a disc that a run without snapshots does not need */
     PetscCall(PetscMalloc2(ids, &sim->effective, ids, &sim->volumetric));
     PetscCall(PgStrainCreate(sim->particles, sim->neighbors, &sim->strain)); /* from the lists of the start */
   }
