@@ -54,15 +54,17 @@ static inline PgReal2 PgTwo(const PetscReal v[], PetscInt i) { return (PgReal2){
 /* Prints "porograin: error: ..." on standard error from rank 0 of comm. Collective. */
 PETSC_EXTERN PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
 
-/* Starts PETSc with porograin's error handler (one readable message instead of a call stack; the stack
-   comes back with -error_stack) and its log stages. `about` is the head of -help. Collective on all. */
+/* Starts MPI (unless the caller did) and PETSc with porograin's error handler (one readable message instead of a call
+   stack; the stack comes back with -error_stack) and its log stages. Files of options are looked at first: a missing
+   or malformed one is an error of all ranks, to be handed to PgFinalize(). -help and -version are taken out of the
+   arguments for PgHelp(); `about` heads PETSc's own help. Collective on all. */
 PETSC_EXTERN PetscErrorCode PgInitialize(int *argc, char ***argv, const char about[]);
 /* Refuses an argument that belongs to no option, which PETSc would pass over in silence. Collective. */
 PETSC_EXTERN PetscErrorCode PgRefuseStrayArguments(int argc, char *argv[]);
 /* Where `name`, a file that comes with the program ("options/solvers/all.txt"), is: there, seen from the present
    folder, or else beside the program as it was installed or built. `name` itself when it is nowhere. Collective. */
 PETSC_EXTERN PetscErrorCode PgShippedFile(MPI_Comm comm, const char name[], char file[], size_t size);
-/* Ends PETSc and returns the exit status that belongs to `err`: 0 done, 2 bad input, 3 failed run,
+/* Ends PETSc, when it was started, and returns the exit status that belongs to `err`: 0 done, 2 bad input, 3 failed run,
    4 file trouble, 1 anything else. An error that only some ranks saw ends the others by MPI_Abort(). */
 PETSC_EXTERN int PgFinalize(PetscErrorCode err);
 /* Exit status of a run that ends without an error, but not as asked; default 0. */
@@ -100,8 +102,32 @@ PETSC_EXTERN PetscErrorCode PgOptionString(PetscOptionItems *PetscOptionsObject,
    objects print their -help into a collector, so that their names are known too. To be called when all
    objects are set up, before anything is written. Collective. */
 PETSC_EXTERN PetscErrorCode PgOptionsCheckUnused(MPI_Comm comm, PetscErrorCode (*probe)(void *), void *context);
-/* Writes name, default, unit, text of every option met so far as a Markdown table. Collective. */
-PETSC_EXTERN PetscErrorCode PgOptionsWriteTable(MPI_Comm comm, const char file[]);
+/* What is read from here on is read only by runs that are given `needs` ("-fluid darcy"), for messages and help; NULL
+   ends that. */
+PETSC_EXTERN PetscErrorCode PgOptionsBelongTo(const char needs[]);
+/* Enters an option that others read into help and messages; a name that ends in '*' stands for all that begin so. */
+PETSC_EXTERN PetscErrorCode PgOptionsMention(const char section[], const char name[], const char initial[],
+                                             const char allowed[], const char text[]);
+/* Calls act(context) with an empty set of options, so that objects made there have their defaults and only tell the
+   names of their options. Collective. */
+PETSC_EXTERN PetscErrorCode PgOptionsApart(PetscErrorCode (*act)(void *), void *context);
+/* Calls act(context), in which objects of PETSc read options with this prefix (without '-'). When PETSc refuses one,
+   ends in PETSC_ERR_USER_INPUT with a message that names option, value and what is allowed; other errors go their
+   usual way. probe(context) makes such objects anew, perhaps many times, and forgets them. Collective. */
+PETSC_EXTERN PetscErrorCode PgOptionsRead(MPI_Comm comm, const char prefix[], PetscErrorCode (*act)(void *),
+                                          PetscErrorCode (*probe)(void *), void *context);
+
+/* ---- help ---- */
+
+typedef struct {
+  const char *name, *purpose;
+  const char *examples;                /* lines */
+  const char *often;                   /* the options that the short help shows, separated by blanks */
+  const char *own;                     /* the section of the options that no other program has; NULL: all */
+  PetscErrorCode (*collect)(MPI_Comm); /* makes everything that reads options, by PgOptionsApart() */
+} PgProgram;
+/* Prints what -help [TOPIC] or -version ask for; *done: that was all there is to do. Collective. */
+PETSC_EXTERN PetscErrorCode PgHelp(MPI_Comm comm, const PgProgram *program, PetscBool *done);
 
 /* ---- a line of the terminal that is written over ---- */
 

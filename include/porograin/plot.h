@@ -11,6 +11,8 @@ PETSC_EXTERN PetscErrorCode PgPlotCreate(MPI_Comm comm, PgPlot *plot);
 PETSC_EXTERN PetscErrorCode PgPlotSetFiles(PgPlot plot, int argc, char *argv[]);
 /* Reads -figures and -plot_*. */
 PETSC_EXTERN PetscErrorCode PgPlotSetFromOptions(PgPlot plot);
+/* Makes all options known, for help (PgProgram). */
+PETSC_EXTERN PetscErrorCode PgPlotMentionOptions(MPI_Comm comm);
 /* Makes all figures in a folder of its own beside the final names and moves them there when all are complete: a
    failure leaves what was there before. */
 PETSC_EXTERN PetscErrorCode PgPlotRun(PgPlot plot);

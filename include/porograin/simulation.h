@@ -12,6 +12,8 @@ PETSC_EXTERN PetscErrorCode PgSimulationCreate(MPI_Comm comm, PgSimulation *simu
 /* Reads -case, -fluid, -dt, -dt_safety, -fluid_every, -end_time, -gravity, -solid_density, -output*,
    -history_every, -progress_every, -guard_every, -checkpoint, -checkpoint_every, -restart, -wall_time and, through the rooms, everything else. */
 PETSC_EXTERN PetscErrorCode PgSimulationSetFromOptions(PgSimulation simulation);
+/* Makes all options of all cases known, for help and for messages (PgProgram). Collective. */
+PETSC_EXTERN PetscErrorCode PgSimulationMentionOptions(MPI_Comm comm);
 /* Makes the discs, lists and first geometry, chooses or checks the time step, sets up the solver, refuses
    unknown options, and only then opens the output. */
 PETSC_EXTERN PetscErrorCode PgSimulationSetUp(PgSimulation simulation);

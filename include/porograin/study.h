@@ -13,6 +13,8 @@ PETSC_EXTERN PetscErrorCode PgStudyCreate(MPI_Comm comm, PgStudy *study);
 /* Reads -study solvers|mms|explicit|stepping, -study_output and the -study_* options of that study; those of all
    studies when help is asked for. */
 PETSC_EXTERN PetscErrorCode PgStudySetFromOptions(PgStudy study);
+/* Makes all options of all studies, and of the runs in them, known, for help and for messages (PgProgram). */
+PETSC_EXTERN PetscErrorCode PgStudyMentionOptions(MPI_Comm comm);
 PETSC_EXTERN PetscErrorCode PgStudyRun(PgStudy study);
 PETSC_EXTERN PetscErrorCode PgStudyDestroy(PgStudy *study);
 

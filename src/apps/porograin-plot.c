@@ -1,19 +1,26 @@
 /* porograin-plot: figures from result files and studies. */
 #include <porograin/plot.h>
 
-static const char about[] = "porograin-plot: figures from results of porograin and porograin-study, by gnuplot\n"
-                            "  porograin-plot run.h5 -figures DIR\n"
-                            "  porograin-plot dry.h5 darcy.h5 ns.h5 -figures DIR -plot_time 0.1 -plot_format png\n"
-                            "  porograin-plot run.h5 -figures DIR -plot_fields pressure,streamlines\n"
-                            "  porograin-plot run.h5 -figures DIR -plot_film pressure\n"
-                            "  porograin-plot study.h5 -figures DIR\n\n";
+static const PgProgram program = {
+    .name     = "porograin-plot",
+    .purpose  = "figures from results of porograin and porograin-study, by gnuplot",
+    .examples = "  porograin-plot run.h5 -figures DIR\n"
+                "  porograin-plot dry.h5 darcy.h5 ns.h5 -figures DIR -plot_time 0.1 -plot_format png\n"
+                "  porograin-plot run.h5 -figures DIR -plot_fields pressure,streamlines\n"
+                "  porograin-plot run.h5 -figures DIR -plot_film pressure\n"
+                "  porograin-plot study.h5 -figures DIR\n",
+    .often    = "-figures -plot_time -plot_fields -plot_film",
+    .own      = "plot",
+    .collect  = PgPlotMentionOptions};
 
 static PetscErrorCode Run(int argc, char *argv[])
 {
   PgPlot    plot;
-  PetscBool help;
+  PetscBool help, done;
 
   PetscFunctionBeginUser;
+  PetscCall(PgHelp(PETSC_COMM_WORLD, &program, &done));
+  if (done) PetscFunctionReturn(0);
   PetscCall(PetscOptionsHasHelp(NULL, &help));
   PetscCall(PgPlotCreate(PETSC_COMM_WORLD, &plot));
   PetscCall(PgPlotSetFiles(plot, argc, argv));
@@ -25,9 +32,8 @@ static PetscErrorCode Run(int argc, char *argv[])
 
 int main(int argc, char *argv[])
 {
-  PetscErrorCode err = PgInitialize(&argc, &argv, about);
+  PetscErrorCode err = PgInitialize(&argc, &argv, NULL);
 
-  if (err) return 1;
-  err = Run(argc, argv);
+  if (!err) err = Run(argc, argv);
   return PgFinalize(err);
 }

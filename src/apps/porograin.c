@@ -1,23 +1,29 @@
 /* porograin: simulates discs with pore water between them. */
 #include <porograin/simulation.h>
 
-static const char about[] =
-    "porograin: saturated granular materials, discs by DEM and pore water by characteristic-based SPH\n"
-    "  porograin -options_file options/panel_case1_ns.opts -pressure implicit -pressure_ksp_monitor -output panel.h5\n"
-    "  porograin -case panel -fluid none -dem_local_damping 0.7 -panel_displacement 0.002\n\n";
+static const PgProgram program = {
+    .name     = "porograin",
+    .purpose  = "discs (DEM) and the pore water between them (SPH)",
+    .examples = "  porograin -options_file options/panel_case1_ns.opts -output panel.h5\n"
+                "  porograin -options_file options/panel_case1_ns.opts -pressure_ksp_type cg -pressure_ksp_monitor\n"
+                "  porograin -case packing -packing discs.csv -fluid darcy -end_time 0.01 -output run.h5\n"
+                "  mpiexec -n 4 porograin -options_file options/panel_case1_dry.opts -panel_columns 100\n",
+    .often    = "-case -fluid -end_time -dt -output -pressure",
+    .collect  = PgSimulationMentionOptions};
 
 static PetscErrorCode Run(int argc, char *argv[])
 {
   PgSimulation simulation;
-  PetscBool    help, recover = PETSC_FALSE;
+  PetscBool    help, done = PETSC_FALSE;
 
   PetscFunctionBeginUser;
-  PetscCall(PgRefuseStrayArguments(argc, argv));
-  PetscCall(PgResultRecoverFromOptions(PETSC_COMM_WORLD, &recover));
-  if (recover) PetscFunctionReturn(0);
+  PetscCall(PgHelp(PETSC_COMM_WORLD, &program, &done));
+  if (!done) PetscCall(PgRefuseStrayArguments(argc, argv));
+  if (!done) PetscCall(PgResultRecoverFromOptions(PETSC_COMM_WORLD, &done));
+  if (done) PetscFunctionReturn(0);
   PetscCall(PgSimulationCreate(PETSC_COMM_WORLD, &simulation));
   PetscCall(PgSimulationSetFromOptions(simulation));
-  PetscCall(PetscOptionsHasHelp(NULL, &help));
+  PetscCall(PetscOptionsHasHelp(NULL, &help)); /* -help petsc: the objects have printed theirs */
   if (!help) {
     PetscCall(PgSimulationSetUp(simulation));
     PetscCall(PgSimulationView(simulation, PETSC_VIEWER_STDOUT_WORLD));
@@ -29,9 +35,8 @@ static PetscErrorCode Run(int argc, char *argv[])
 
 int main(int argc, char *argv[])
 {
-  PetscErrorCode err = PgInitialize(&argc, &argv, about);
+  PetscErrorCode err = PgInitialize(&argc, &argv, NULL);
 
-  if (err) return 1;
-  err = Run(argc, argv);
+  if (!err) err = Run(argc, argv);
   return PgFinalize(err);
 }

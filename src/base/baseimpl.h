@@ -4,5 +4,59 @@
 #include <porograin/base.h>
 
 PETSC_INTERN PetscErrorCode PgStagesRegister(void);
-PETSC_INTERN void           PgOptionsForget(void);
 PETSC_INTERN void           PgTerminalLookAround(void);
+
+/* error.c: the handler that prints one message where PETSc's prints a call stack */
+PETSC_INTERN PetscErrorCode PgHandleError(MPI_Comm comm, int line, const char *function, const char *file,
+                                          PetscErrorCode code, PetscErrorType type, const char *message, void *context);
+/* version.c */
+PETSC_INTERN PetscErrorCode PgVersionPrint(MPI_Comm comm, const char program[]);
+
+/* ---- known.c: the memory of every option met ---- */
+
+typedef struct {
+  const char *name, *initial, *unit, *text;
+  const char *allowed; /* bounds or words, as shown to a user; may be empty */
+  const char *section; /* "key: title" of the block that reads it; empty for an option of PETSc */
+  const char *needs;   /* what a run must be given to read it, empty: nothing */
+  const char *words;   /* that PETSc's help names for it; NULL or empty: none */
+  PetscBool   active;  /* met by this run, and not only while options were collected */
+} PgKnownOption;
+
+/* Copies *option, unless one of this name is known already. */
+PETSC_INTERN PetscErrorCode       PgKnownAdd(const PgKnownOption *option);
+PETSC_INTERN PetscInt             PgKnownCount(void);
+PETSC_INTERN const PgKnownOption *PgKnownAt(PetscInt i);
+/* Names with or without their '-'. NULL: there is none. A name that ends in '*' stands for all that begin so. */
+PETSC_INTERN const PgKnownOption *PgKnownFind(const char name[]);
+PETSC_INTERN const PgKnownOption *PgKnownPattern(const char name[]);
+PETSC_INTERN const PgKnownOption *PgKnownNearest(const char name[]);
+PETSC_INTERN void                 PgKnownForget(void);
+/* Edit distance with neighbouring letters swapped counted as one edit. */
+PETSC_INTERN PetscInt PgDistance(const char a[], const char b[]);
+
+/* ---- collect.c: making objects tell the names of their options ---- */
+
+/* Whether objects are made only to tell their options. */
+PETSC_INTERN PetscBool PgIsCollecting(void);
+/* Calls act(context) while what PETSc prints as -help goes into the memory of options. */
+PETSC_INTERN PetscErrorCode PgCollectHelp(PetscErrorCode (*act)(void *), void *context);
+/* The same for all that a program may read, with an empty set of options, as if the user had given none. */
+PETSC_INTERN PetscErrorCode PgCollectAll(MPI_Comm comm, PetscErrorCode (*collect)(MPI_Comm));
+
+/* unknown.c: what to call for the options that other runs read; may be NULL. */
+PETSC_INTERN void PgOptionsSetCollector(PetscErrorCode (*collect)(MPI_Comm));
+
+/* ---- optionfiles.c ---- */
+
+/* Looks at the files that the command line, PETSC_OPTIONS and PETSc's own places name, before PETSc reads them: it
+   would stop on one rank only, with pages of text. Returns 0 or a code of PETSc and the message. One rank calls it. */
+PETSC_INTERN PetscErrorCode PgOptionFilesCheck(int argc, char *const argv[], char message[], size_t length);
+/* The file and line of what PETSc's YAML reader does not understand; PETSc itself says neither. */
+PETSC_INTERN PetscBool PgOptionFilesFindYaml(int argc, char *const argv[], char message[], size_t length);
+
+/* ---- help.c ---- */
+
+/* Takes -help [TOPIC] and -version out of the arguments. */
+PETSC_INTERN void PgHelpTakeArguments(int *argc, char ***argv);
+PETSC_INTERN void PgHelpForget(void);

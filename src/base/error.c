@@ -2,9 +2,12 @@
 #include "baseimpl.h"
 #include <signal.h>
 #include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
 
 static PetscBool collective_error     = PETSC_FALSE; /* the error was reported by PgReport(): every rank has it */
 static PetscBool print_stack          = PETSC_FALSE;
+static PetscBool began_mpi            = PETSC_FALSE;
 static int       status_without_error = 0;
 
 static void PrintError(const char *message)
@@ -16,8 +19,8 @@ static void PrintError(const char *message)
 }
 
 /* PETSc's own handler prints a call stack for a misspelt option; this one prints the message. */
-static PetscErrorCode HandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
-                                  PetscErrorType type, const char *message, void *context)
+PetscErrorCode PgHandleError(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
+                             PetscErrorType type, const char *message, void *context)
 {
   PetscMPIInt rank = 0, world = 0;
   char        text[PETSC_MAX_PATH_LEN + 1024];
@@ -41,7 +44,6 @@ PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...)
 {
   PetscMPIInt rank;
   char        text[4096];
-  size_t      length;
   va_list     arguments;
 
   PetscFunctionBeginUser;
@@ -49,19 +51,86 @@ PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...)
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
     va_start(arguments, format);
-    PetscCall(PetscVSNPrintf(text, sizeof text, format, &length, arguments));
+    (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     PrintError(text);
   }
   PetscFunctionReturn(0);
 }
 
+static PetscBool petsc_runs = PETSC_FALSE;
+static char      refusal[512]; /* what PETSc says when it does not start */
+
+/* Stays for good: it is there before PETSc, whose own handler would print pages and, on other ranks, abort. */
+static PetscErrorCode HandleAnyError(MPI_Comm comm, int line, const char *function, const char *file,
+                                     PetscErrorCode code, PetscErrorType type, const char *message, void *context)
+{
+  if (petsc_runs) return PgHandleError(comm, line, function, file, code, type, message, context);
+  if (type == PETSC_ERROR_INITIAL) (void)snprintf(refusal, sizeof refusal, "%s", message ? message : "");
+  return code;
+}
+
+/* One message of rank 0 of all, before PETSc is there. */
+static PetscErrorCode RefuseToStart(PetscErrorCode code, const char message[])
+{
+  int rank = 0;
+
+  (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) PrintError(message);
+  return code;
+}
+
+static PetscErrorCode StartPetsc(int *argc, char ***argv, const char about[])
+{
+  static PetscBool pushed = PETSC_FALSE;
+  PetscErrorCode   err;
+  char             message[1024] = "PETSc does not start";
+  int              rank          = 0;
+
+  (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  refusal[0] = '\0';
+  if (!pushed) (void)PetscPushErrorHandler(HandleAnyError, NULL);
+  pushed     = PETSC_TRUE;
+  err        = PetscInitialize(argc, argv, NULL, about);
+  petsc_runs = (PetscBool)!err;
+  if (!err) return 0;
+  if (strstr(refusal, "YAML")) {
+    collective_error = PETSC_TRUE; /* every rank has read it */
+    if (rank != 0 || !argc || !PgOptionFilesFindYaml(*argc, *argv, message, sizeof message))
+      (void)snprintf(message, sizeof message, "options: %s", refusal);
+    return RefuseToStart(PETSC_ERR_USER_INPUT, message);
+  }
+  if (refusal[0]) (void)snprintf(message, sizeof message, "PETSc does not start: %s", refusal);
+  for (int i = 1; argc && i + 1 < *argc; i++) { /* PETSc quotes the value without its option */
+    if ((*argv)[i][0] == '-' && strlen((*argv)[i + 1]) > 2 && strstr(refusal, (*argv)[i + 1]))
+      (void)snprintf(message, sizeof message, "option %s: %s", (*argv)[i], refusal);
+  }
+  return RefuseToStart(err == PETSC_ERR_USER ? PETSC_ERR_USER_INPUT : err, message);
+}
+
 PetscErrorCode PgInitialize(int *argc, char ***argv, const char about[])
 {
+  char           message[2048] = "";
+  int            began = 0, rank = 0;
+  PetscErrorCode err = 0;
+
   PetscFunctionBeginUser;
   PgTerminalLookAround();
-  PetscCall(PetscInitialize(argc, argv, NULL, about));
-  PetscCall(PetscPushErrorHandler(HandleError, NULL));
+  /* ahead of PETSc, so that all ranks can agree on what is wrong with files of options */
+  (void)MPI_Initialized(&began);
+  if (!began) {
+    int provided;
+    (void)MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
+    began_mpi = PETSC_TRUE;
+  }
+  (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  PgHelpTakeArguments(argc, argv);
+  if (rank == 0 && argc && argv) err = PgOptionFilesCheck(*argc, *argv, message, sizeof message);
+  (void)MPI_Bcast(&err, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  collective_error = (PetscBool)(err != 0);
+  if (err) return RefuseToStart(err, message);
+  err = StartPetsc(argc, argv, about);
+  if (err) return err;
   /* Output into a closed pipe is reported by the write that failed, not by a signal with pages of text. */
   (void)signal(SIGPIPE, SIG_IGN);
   (void)signal(SIGXFSZ, SIG_IGN); /* the same for a limit on the size of files */
@@ -114,17 +183,27 @@ PetscBool PgErrorIsCollective(void) { return collective_error; }
 
 void PgSetExitStatus(int status) { status_without_error = status; }
 
+static int EndMpi(int status)
+{
+  if (began_mpi) (void)MPI_Finalize();
+  began_mpi = PETSC_FALSE;
+  return status;
+}
+
 int PgFinalize(PetscErrorCode err)
 {
-  const int   status = err ? ExitStatus(err) : status_without_error;
-  PetscMPIInt size   = 1;
+  const int   status  = err ? ExitStatus(err) : status_without_error;
+  PetscMPIInt size    = 1;
+  PetscBool   started = PETSC_FALSE;
 
-  PgOptionsForget();
+  (void)PetscInitialized(&started);
+  if (started) PgKnownForget();
   PgTerminalEnd();
-  (void)PetscPopErrorHandler();
-  (void)MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  PgHelpForget();
+  (void)MPI_Comm_size(MPI_COMM_WORLD, &size);
   /* An error that only some ranks have met leaves the others waiting in a collective call. */
-  if (err && size > 1 && !collective_error) (void)MPI_Abort(PETSC_COMM_WORLD, status);
-  if (PetscFinalize() && !err) return 1;
-  return status;
+  if (err && size > 1 && !collective_error) (void)MPI_Abort(MPI_COMM_WORLD, status);
+  if (started && PetscFinalize() && !err) return EndMpi(1);
+  petsc_runs = PETSC_FALSE;
+  return EndMpi(status);
 }

@@ -4,11 +4,10 @@
 
 static const char held_discs[] = "-dem_k_n 1 -dem_k_s 1 -dem_k_r 0 -dem_k_theta 0 ";
 
-PetscErrorCode PgBedCreate(MPI_Comm comm, const char name[], const char defaults[], const PgBed *initial,
-                           void **context)
+PetscErrorCode PgBedCreate(MPI_Comm comm, const char defaults[], const PgBed *initial, void **context)
 {
   PgBed *bed;
-  char   all[1024], title[96];
+  char   all[1024];
 
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&bed));
@@ -16,8 +15,7 @@ PetscErrorCode PgBedCreate(MPI_Comm comm, const char name[], const char defaults
   PetscCall(PetscStrncpy(all, held_discs, sizeof all));
   PetscCall(PetscStrlcat(all, defaults, sizeof all));
   PetscCall(PgCaseDefaults(all));
-  PetscCall(PetscSNPrintf(title, sizeof title, "case %s: water in a fixed bed", name));
-  PetscOptionsBegin(comm, "", title, "");
+  PetscOptionsBegin(comm, "", "case bed_*: water in a fixed bed", "");
   PetscCall(PgLatticeOptions(PetscOptionsObject, "bed", &bed->lattice));
   PetscCall(PgOptionReal(PetscOptionsObject, "-bed_porosity",
                          "porosity, by the spacing of the discs; -1: discs just touch", "1", -1.0, 0.5,

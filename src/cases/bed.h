@@ -9,7 +9,6 @@ typedef struct {
 } PgBed;
 
 /* Sets the options that come with the case and reads -bed_*; `initial` is what they start from. Collective. */
-PETSC_INTERN PetscErrorCode PgBedCreate(MPI_Comm comm, const char name[], const char defaults[], const PgBed *initial,
-                                        void **context);
+PETSC_INTERN PetscErrorCode PgBedCreate(MPI_Comm comm, const char defaults[], const PgBed *initial, void **context);
 PETSC_INTERN PetscErrorCode PgBedSetup(void *context, PgCaseSetup *setup);
 PETSC_INTERN PetscErrorCode PgBedDestroy(void **context);

@@ -15,7 +15,7 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   const PgBed initial = {{.columns = 8, .rows = 25, .radius = 5e-3, .porosity = -1.0, .held = PETSC_TRUE}, 1e-2};
 
   PetscFunctionBeginUser;
-  PetscCall(PgBedCreate(comm, "bed_darcy",
+  PetscCall(PgBedCreate(comm,
                         "-fluid darcy -dt 1e-3 -bc_bottom drained -bc_bottom_pressure 101000 -bc_top drained "
                         "-bc_top_pressure 100000",
                         &initial, context));

@@ -13,7 +13,7 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   const PgBed initial = {{.columns = 8, .rows = 25, .radius = 5e-3, .porosity = -1.0, .held = PETSC_TRUE}, 2e-2};
 
   PetscFunctionBeginUser;
-  PetscCall(PgBedCreate(comm, "bed_ergun",
+  PetscCall(PgBedCreate(comm,
                         "-fluid ns -dt 1e-4 -ns_continuity averaged -bc_bottom drained -bc_bottom_pressure 832000 "
                         "-bc_top drained -bc_top_pressure 100000 -detach_porosity 0.9",
                         &initial, context));

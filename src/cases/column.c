@@ -4,18 +4,15 @@
 #include "column.h"
 #include <math.h>
 
-PetscErrorCode PgColumnCreate(MPI_Comm comm, const char name[], const char defaults[], const PgColumn1d *initial,
-                              void **context)
+PetscErrorCode PgColumnCreate(MPI_Comm comm, const char defaults[], const PgColumn1d *initial, void **context)
 {
   PgColumn1d *column;
-  char        title[96];
 
   PetscFunctionBeginUser;
   PetscCall(PetscNew(&column));
   *column = *initial;
   PetscCall(PgCaseDefaults(defaults));
-  PetscCall(PetscSNPrintf(title, sizeof title, "case %s: column of grains and water", name));
-  PetscOptionsBegin(comm, "", title, "");
+  PetscOptionsBegin(comm, "", "case column_*: column of grains and water", "");
   PetscCall(PgLatticeOptions(PetscOptionsObject, "column", &column->lattice));
   PetscCall(PgOptionReal(PetscOptionsObject, "-column_load", "stress on the top row, downward", "Pa", 0.0, 1e12,
                          &column->load, NULL));

@@ -11,7 +11,7 @@ typedef struct {
 } PgColumn1d;
 
 /* Sets the options that come with the case and reads -column_*; `initial` is what they start from. Collective. */
-PETSC_INTERN PetscErrorCode PgColumnCreate(MPI_Comm comm, const char name[], const char defaults[],
-                                           const PgColumn1d *initial, void **context);
+PETSC_INTERN PetscErrorCode PgColumnCreate(MPI_Comm comm, const char defaults[], const PgColumn1d *initial,
+                                           void **context);
 PETSC_INTERN PetscErrorCode PgColumnSetup(void *context, PgCaseSetup *setup);
 PETSC_INTERN PetscErrorCode PgColumnDestroy(void **context);

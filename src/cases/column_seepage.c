@@ -14,7 +14,7 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   const PgColumn1d initial = {{.columns = 8, .rows = 25, .radius = 5e-3, .porosity = -1.0}, 0.0, 0.5, 0.04};
 
   PetscFunctionBeginUser;
-  PetscCall(PgColumnCreate(comm, "column_seepage",
+  PetscCall(PgColumnCreate(comm,
                            "-fluid darcy -gravity 0,-9.81 -dt 4e-6 -fluid_every 10 -coupling drag_and_pressure "
                            "-bc_bottom drained -bc_top drained -bc_top_pressure 100000 -dem_local_damping 0.7",
                            &initial, context));

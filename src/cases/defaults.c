@@ -34,8 +34,13 @@ PetscErrorCode PgCaseDefaults(const char options[])
     /* judged by what the user gave: the values set here come after all of them have been looked at */
     if (given) word[i][0] = '\0';
   }
-  for (int i = 0; i < words; i += 2)
-    if (word[i][0]) PetscCall(PetscOptionsSetValue(NULL, word[i], word[i + 1]));
+  for (int i = 0; i < words; i += 2) {
+    PetscBool set;
+    if (!word[i][0]) continue;
+    PetscCall(PetscOptionsSetValue(NULL, word[i], word[i + 1]));
+    /* the user did not give it: it is no unknown option when this run has no use for it */
+    PetscCall(PetscOptionsHasName(NULL, NULL, word[i], &set));
+  }
   PetscCall(PetscStrToArrayDestroy(words, word));
   PetscFunctionReturn(0);
 }

@@ -177,7 +177,7 @@ PetscErrorCode PgDemSetFromOptions(PgDem dem)
   PetscBool energy = dem->energy;
 
   PetscFunctionBeginUser;
-  PetscOptionsBegin(PgParticlesComm(dem->particles), NULL, "Solid phase: discs in contact", NULL);
+  PetscOptionsBegin(PgParticlesComm(dem->particles), NULL, "dem: discs in contact", NULL);
   PetscCall(ReadOptions(dem, PetscOptionsObject, &energy));
   PetscOptionsEnd();
   PetscCall(PgDemSetEnergy(dem, energy));

@@ -76,7 +76,7 @@ static PetscErrorCode DirectoryOf(const char file[], char **directory)
   PetscFunctionReturn(0);
 }
 
-/* PgFileCheck() for input that the user can mend: PETSC_ERR_USER_INPUT. */
+/* Whether the three files can be made where they are asked for: PETSC_ERR_FILE_OPEN. */
 PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char xmf[], const char csv[])
 {
   const char *const places[] = {file, xmf, csv};
@@ -87,10 +87,10 @@ PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(DirectoryOf(file, &directory));
-  err = PgFileCheck(comm, PETSC_ERR_USER_INPUT, "directory of the result file", directory,
+  err = PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "directory of the result file", directory,
                     rank ? NULL : WhyNotDirectory(directory));
   for (size_t k = 0; !err && k < PETSC_STATIC_ARRAY_LENGTH(places); k++)
-    err = PgFileCheck(comm, PETSC_ERR_USER_INPUT, "result file", places[k], rank ? NULL : PgWhyNotWritable(places[k]));
+    err = PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "result file", places[k], rank ? NULL : PgWhyNotWritable(places[k]));
   PetscCall(PetscFree(directory));
   PetscFunctionReturn(err);
 }

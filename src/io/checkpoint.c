@@ -47,8 +47,8 @@ PetscErrorCode PgCheckpointCheckPlace(MPI_Comm comm, const char file[])
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(PgCheckpointName(comm, file, ".tmp", temporary, sizeof temporary));
-  PetscCall(PgFileCheck(comm, PETSC_ERR_USER_INPUT, "checkpoint", file, rank ? NULL : WhyNotPlace(file)));
-  PetscCall(PgFileCheck(comm, PETSC_ERR_USER_INPUT, "checkpoint", file, rank ? NULL : PgWhyNotWritable(temporary)));
+  PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "checkpoint", file, rank ? NULL : WhyNotPlace(file)));
+  PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "checkpoint", file, rank ? NULL : PgWhyNotWritable(temporary)));
   PetscFunctionReturn(0);
 }
 

@@ -252,10 +252,8 @@ PetscErrorCode PgPackingCheckPlace(MPI_Comm comm, const char file[])
                "packing '%s': the name must end in .csv or .h5, as in 'packing.csv'", file);
   PetscCall(Part(file, part));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(
-      PgFileCheck(comm, PETSC_ERR_USER_INPUT, "cannot write packing", file, rank ? NULL : PgWhyNotWritable(file)));
-  PetscCall(
-      PgFileCheck(comm, PETSC_ERR_USER_INPUT, "cannot write packing", part, rank ? NULL : PgWhyNotWritable(part)));
+  PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "cannot write packing", file, rank ? NULL : PgWhyNotWritable(file)));
+  PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "cannot write packing", part, rank ? NULL : PgWhyNotWritable(part)));
   PetscFunctionReturn(0);
 }
 
@@ -385,7 +383,7 @@ PetscErrorCode PgPackingExport(MPI_Comm comm, PgParticles particles)
   PetscErrorCode err;
 
   PetscFunctionBeginUser;
-  PetscOptionsBegin(comm, "", "packings", "");
+  PetscOptionsBegin(comm, "", "output: results, checkpoints and restart", "");
   PetscCall(PgOptionString(PetscOptionsObject, "-packing_export",
                            "writes the discs at the start of the run to FILE.csv or FILE.h5", file, sizeof file, NULL));
   PetscOptionsEnd();

@@ -49,7 +49,7 @@ PetscErrorCode PgResultRecoverFromOptions(MPI_Comm comm, PetscBool *asked)
   PetscInt  count;
 
   PetscFunctionBeginUser;
-  PetscOptionsBegin(comm, "", "recovery", "");
+  PetscOptionsBegin(comm, "", "output: results, checkpoints and restart", "");
   PetscCall(PgOptionString(PetscOptionsObject, "-recover",
                            "result file FILE.h5 of a killed run: undo the change it was in the middle of, and end",
                            file, sizeof file, asked));

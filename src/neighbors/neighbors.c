@@ -23,7 +23,7 @@ PetscErrorCode PgNeighborsCreate(PgParticles particles, PgNeighbors *neighbors)
 PetscErrorCode PgNeighborsSetFromOptions(PgNeighbors neighbors)
 {
   PetscFunctionBeginUser;
-  PetscOptionsBegin(PgParticlesComm(neighbors->particles), NULL, "Neighbors: pair lists", "");
+  PetscOptionsBegin(PgParticlesComm(neighbors->particles), NULL, "neighbors: pair lists", "");
   PetscCall(PgOptionReal(PetscOptionsObject, "-neighbors_skin",
                          "skin of the pair lists as a fraction of the mean radius: wider means longer lists and fewer "
                          "builds",

@@ -46,7 +46,7 @@ PetscErrorCode PgParticlesCreate(MPI_Comm comm, PgParticles *particles)
 PetscErrorCode PgParticlesSetFromOptions(PgParticles particles)
 {
   PetscFunctionBeginUser;
-  PetscOptionsBegin(particles->comm, NULL, "Particles: partition over the ranks", "");
+  PetscOptionsBegin(particles->comm, NULL, "particles: partition over the processes", "");
   PetscCall(PgOptionReal(PetscOptionsObject, "-particles_balance",
                          "largest load over the mean before the discs are partitioned anew", "1", 1.0, PETSC_MAX_REAL,
                          &particles->balance, NULL));

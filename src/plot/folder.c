@@ -70,7 +70,10 @@ PetscErrorCode PgPlotFolderOpen(MPI_Comm comm, const char directory[], PgPlotFol
       folder->work[0] = '\0';
     }
   }
-  PgInputCheck(!reason[0], comm, "option -figures: directory '%s': %s", directory, reason);
+  if (reason[0]) {
+    PetscCall(PgReport(comm, "option -figures: directory '%s': %s", directory, reason));
+    return PETSC_ERR_FILE_OPEN;
+  }
   PetscFunctionReturn(0);
 }
 

@@ -87,7 +87,7 @@ PetscErrorCode PgPlotSetFromOptions(PgPlot plot)
   PetscReal percent = 100.0 * plot->clip;
 
   PetscFunctionBeginUser;
-  PetscOptionsBegin(plot->comm, NULL, "Figures from results", NULL);
+  PetscOptionsBegin(plot->comm, NULL, "plot: figures from results", NULL);
   PetscCall(PgOptionString(PetscOptionsObject, "-figures", "directory of the figures, made when it is not there",
                            plot->directory, sizeof plot->directory, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-plot_time",
@@ -122,6 +122,26 @@ PetscErrorCode PgPlotSetFromOptions(PgPlot plot)
     PgInputCheck(plot->film->drawing == PG_PLOT_DISCS, plot->comm, "option -plot_film: %s is not drawn as discs",
                  plot->film->name);
   }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Mention(void *context)
+{
+  PgPlot plot;
+
+  PetscFunctionBeginUser;
+  (void)context;
+  PetscCall(PgPlotCreate(PETSC_COMM_WORLD, &plot));
+  PetscCall(PgPlotSetFromOptions(plot));
+  PetscCall(PgPlotDestroy(&plot));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPlotMentionOptions(MPI_Comm comm)
+{
+  PetscFunctionBeginUser;
+  (void)comm;
+  PetscCall(PgOptionsApart(Mention, NULL));
   PetscFunctionReturn(0);
 }
 

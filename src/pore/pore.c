@@ -180,7 +180,8 @@ static PetscErrorCode SchemeOptions(PgPore pore, PetscOptionItems *PetscOptionsO
   PetscCall(PgOptionChoice(
       PetscOptionsObject, "-coupling_scheme",
       "pressure-gradient force: both phases projected with the new pressure; force of the old one; or that, "
-      "corrected by projection with the increment",
+      "corrected by projection with the increment; default: projection, but staggered with -fluid ns "
+      "-ns_continuity solenoidal",
       3, scheme_words, &scheme, &set));
   PgInputCheck(!set || coupling == PG_COUPLING_DRAG_AND_PRESSURE, PetscOptionsObject->comm,
                "option -coupling_scheme has a meaning only with -coupling drag_and_pressure");
@@ -215,7 +216,7 @@ PetscErrorCode PgPoreSetFromOptions(PgPore pore)
   MPI_Comm comm = PgParticlesComm(pore->particles);
 
   PetscFunctionBeginUser;
-  PetscOptionsBegin(comm, "", "pore water", "");
+  PetscOptionsBegin(comm, "", "water: pore water, drag, porosity and sides", "");
   PetscCall(PgOptionReal(PetscOptionsObject, "-fluid_density", "density of the water rho_f", "kg/m3", PG_POSITIVE, 1e6,
                          &pore->rho_f, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-fluid_viscosity", "viscosity of the water mu", "N s/m2", PG_POSITIVE,

@@ -1,7 +1,9 @@
 /* Writing a system: A, b, x one after the other in one PETSc binary file, to be read by MatLoad() and VecLoad(). */
 #include "pressureimpl.h"
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Whether rank 0 can open the file; asked first, because PETSc would fail on rank 0 alone. */
 static PetscErrorCode CanWrite(MPI_Comm comm, const char file[], PetscBool *can)
@@ -63,6 +65,40 @@ static PetscErrorCode TakeResult(PgPressure q)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode NextName(PgPressure q, char name[], size_t length)
+{
+  PetscFunctionBeginUser;
+  if (q->dump_every)
+    PetscCall(NumberedName(q->dump, q->solves, name, length));
+  else
+    PetscCall(PetscStrncpy(name, q->dump, length));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPressureCheckDump(PgPressure q)
+{
+  char        name[PETSC_MAX_PATH_LEN + 16], reason[256] = "";
+  PetscMPIInt rank;
+
+  PetscFunctionBeginUser;
+  PetscCall(NextName(q, name, sizeof name));
+  PetscCallMPI(MPI_Comm_rank(q->comm, &rank));
+  if (rank == 0) {
+    struct stat before;
+    const int   there = stat(name, &before) == 0;
+    FILE       *f     = fopen(name, "ab"); /* leaves what is there as it is */
+    if (!f) (void)snprintf(reason, sizeof reason, "%s", strerror(errno));
+    if (f) (void)fclose(f);
+    if (f && !there) (void)remove(name);
+  }
+  PetscCallMPI(MPI_Bcast(reason, sizeof reason, MPI_CHAR, 0, q->comm));
+  if (reason[0]) {
+    PetscCall(PgReport(q->comm, "option -pressure_dump: cannot write '%s': %s", name, reason));
+    return PETSC_ERR_FILE_OPEN;
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPressureDump(PgPressure q)
 {
   char      name[PETSC_MAX_PATH_LEN + 16];
@@ -71,13 +107,10 @@ PetscErrorCode PgPressureDump(PgPressure q)
   PetscFunctionBeginUser;
   PetscCall(PgPressureGetSystem(q, NULL, NULL, NULL));
   PetscCall(TakeResult(q));
-  if (q->dump_every)
-    PetscCall(NumberedName(q->dump, q->solves, name, sizeof name));
-  else
-    PetscCall(PetscStrncpy(name, q->dump, sizeof name));
+  PetscCall(NextName(q, name, sizeof name));
   PetscCall(PgPressureWriteSystem(q, name, &written));
   if (!written) {
-    PetscCall(PgReport(q->comm, "option -pressure_dump: cannot write %s", name));
+    PetscCall(PgReport(q->comm, "option -pressure_dump: cannot write '%s'", name));
     return PETSC_ERR_FILE_OPEN;
   }
   q->work.dumps++;

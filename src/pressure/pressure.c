@@ -107,10 +107,37 @@ static PetscErrorCode ChooseMethod(PgPressure q, PetscOptionItems *PetscOptionsO
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ReadSolverOptions(void *pressure)
+{
+  PgPressure q = (PgPressure)pressure;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPressureSolverFromOptions(q, q->ksp));
+  PetscFunctionReturn(0);
+}
+
+/* PETSc takes any number. */
+static PetscErrorCode CheckTolerances(PgPressure q)
+{
+  PetscReal rtol, atol, dtol;
+  PetscInt  max_it;
+
+  PetscFunctionBeginUser;
+  PetscCall(KSPGetTolerances(q->ksp, &rtol, &atol, &dtol, &max_it));
+  PgInputCheck(rtol >= 0.0 && rtol < 1.0, q->comm,
+               "option -pressure_ksp_rtol: %g is out of range, it must be >= 0 and < 1", (double)rtol);
+  PgInputCheck(atol >= 0.0 && atol < PETSC_INFINITY, q->comm,
+               "option -pressure_ksp_atol: %g Pa is out of range, it must be >= 0 Pa", (double)atol);
+  PgInputCheck(dtol > 0.0, q->comm, "option -pressure_ksp_divtol: %g is out of range, it must be > 0", (double)dtol);
+  PgInputCheck(max_it >= 1, q->comm, "option -pressure_ksp_max_it: %" PetscInt_FMT " is out of range, it must be >= 1",
+               max_it);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPressureSetFromOptions(PgPressure q)
 {
   PetscFunctionBeginUser;
-  PetscOptionsBegin(q->comm, "", "Pressure equation", "");
+  PetscOptionsBegin(q->comm, "", PG_PRESSURE_SECTION, "");
   PetscCall(ChooseMethod(q, PetscOptionsObject));
   PetscCall(PgOptionInt(PetscOptionsObject, "-pressure_sweeps", "explicit: sweeps of Eq. 55 per solve", 1,
                         PETSC_MAX_INT, &q->sweeps, NULL));
@@ -137,7 +164,10 @@ PetscErrorCode PgPressureSetFromOptions(PgPressure q)
   PetscOptionsEnd();
   PetscCall(PetscOptionsHasName(NULL, "pressure_", "-ksp_type", &q->user_type));
   PetscCall(PetscOptionsHasName(NULL, "pressure_", "-ksp_atol", &q->user_atol));
-  PetscCall(PgPressureSolverFromOptions(q, q->ksp));
+  PetscCall(PgPressureMentionOptions());
+  if (q->dump[0]) PetscCall(PgPressureCheckDump(q));
+  PetscCall(PgOptionsRead(q->comm, "pressure_", ReadSolverOptions, PgPressureProbeOptions, q));
+  PetscCall(CheckTolerances(q));
   q->from_options = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

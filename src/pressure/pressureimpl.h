@@ -4,6 +4,8 @@
 
 #include <porograin/pressure.h>
 
+#define PG_PRESSURE_SECTION "pressure: pressure equation and its solver"
+
 /* A method: how the equations of this geometry are solved. */
 typedef struct {
   PgPressureMethod kind;
@@ -93,6 +95,8 @@ PETSC_INTERN PetscErrorCode PgPressureDestroyMatrix(PgPressure pressure);
 /* dump.c: A, b, x as PETSC binary. *written is false when the file cannot be opened. */
 PETSC_INTERN PetscErrorCode PgPressureWriteSystem(PgPressure pressure, const char file[], PetscBool *written);
 PETSC_INTERN PetscErrorCode PgPressureDump(PgPressure pressure);
+/* Refuses a place where the next dump cannot be written. Collective. */
+PETSC_INTERN PetscErrorCode PgPressureCheckDump(PgPressure pressure);
 
 /* explicit.c, implicit.c: register their method */
 PETSC_INTERN PetscErrorCode PgPressureCreate_Explicit(PgPressure pressure);
@@ -100,6 +104,8 @@ PETSC_INTERN PetscErrorCode PgPressureCreate_Implicit(PgPressure pressure);
 
 /* solver.c: the KSP and its preconditioner */
 PETSC_INTERN PetscErrorCode PgPressureCreateSolver(PgPressure pressure, KSP *ksp);
+/* Enters the options of PETSc that matter most into the help. */
+PETSC_INTERN PetscErrorCode PgPressureMentionOptions(void);
 PETSC_INTERN PetscErrorCode PgPressureSolverFromOptions(PgPressure pressure, KSP ksp);
 /* Refuses a solver that cannot work for this matrix. */
 PETSC_INTERN PetscErrorCode PgPressureCheckSolver(PgPressure pressure);

@@ -1,7 +1,5 @@
 /* The Krylov solver and its preconditioner: defaults, the user's options, and when to build anew. */
 #include "pressureimpl.h"
-#include <stdarg.h>
-#include <stdio.h>
 
 static PetscErrorCode SetDefaultPreconditioner(PC pc)
 {
@@ -50,6 +48,38 @@ static PetscErrorCode SettleNorm(KSP ksp)
   refused = KSPGetNormType(ksp, &norm);
   PetscCall(PetscPopErrorHandler());
   if (refused) PetscCall(KSPSetNormType(ksp, KSP_NORM_DEFAULT));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgPressureMentionOptions(void)
+{
+  static const struct {
+    const char *name, *initial, *text;
+  } option[] = {
+    {"-pressure_ksp_type", "cg", "Krylov method"},
+    {"-pressure_ksp_rtol", "1e-08", "norm of the residual to reach, over that of the right-hand side"},
+    {"-pressure_ksp_atol", "1e-50", "norm of the residual that is small enough in any case [Pa]"},
+    {"-pressure_ksp_max_it", "1000", "most iterations of a solve"},
+    {"-pressure_ksp_norm_type", "unpreconditioned", "norm of the residual that is compared with the tolerances"},
+    {"-pressure_ksp_divtol", "1e+30", "growth of the residual that counts as divergence"},
+    {"-pressure_ksp_monitor", "", "prints the residual of each iteration"},
+    {"-pressure_ksp_view", "", "prints the solver"},
+#if defined(PETSC_HAVE_HYPRE)
+    {"-pressure_pc_type", "hypre", "preconditioner"},
+    {"-pressure_pc_hypre_type", "boomeramg", "preconditioner of hypre"},
+#else
+    {"-pressure_pc_type", "gamg", "preconditioner"},
+#endif
+    {"-pressure_mat_type", "aij", "kind of matrix, one of the aij types"},
+  };
+
+  PetscFunctionBeginUser;
+  for (size_t i = 0; i < sizeof option / sizeof *option; i++)
+    PetscCall(PgOptionsMention(PG_PRESSURE_SECTION, option[i].name, option[i].initial, "", option[i].text));
+  PetscCall(PgOptionsMention(PG_PRESSURE_SECTION, "-pressure_*", "", "",
+                             "every option of PETSc's KSP, PC and Mat with this prefix (-pressure_ksp_gmres_restart, "
+                             "-pressure_pc_gamg_threshold, -pressure_mg_levels_ksp_max_it, ...): see "
+                             "https://petsc.org/release/manualpages/, or -help petsc"));
   PetscFunctionReturn(0);
 }
 
@@ -169,6 +199,16 @@ static PetscErrorCode StartAfresh(PgPressure q)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode SetUpSolvers(void *pressure)
+{
+  PgPressure q = (PgPressure)pressure;
+
+  PetscFunctionBeginUser;
+  PetscCall(KSPSetUp(q->ksp));
+  PetscCall(KSPSetUpOnBlocks(q->ksp));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPressureBuildPreconditioner(PgPressure q)
 {
   PC pc;
@@ -179,8 +219,10 @@ PetscErrorCode PgPressureBuildPreconditioner(PgPressure q)
   PetscCall(ChooseCoarseSolver(q, pc));
   PetscCall(KSPSetReusePreconditioner(q->ksp, PETSC_FALSE));
   PetscCall(KSPSetOperators(q->ksp, q->A, q->A));
-  PetscCall(KSPSetUp(q->ksp));
-  PetscCall(KSPSetUpOnBlocks(q->ksp));
+  if (q->preconditioners)
+    PetscCall(SetUpSolvers(q));
+  else /* the solvers inside read their options */
+    PetscCall(PgOptionsRead(q->comm, "pressure_", SetUpSolvers, PgPressureProbeOptions, q));
   PetscCall(KSPSetReusePreconditioner(q->ksp, PETSC_TRUE));
   q->built            = PETSC_TRUE;
   q->stale            = PETSC_FALSE;
@@ -205,25 +247,6 @@ PetscErrorCode PgPressureKeepPreconditioner(PgPressure q, PetscBool *fresh)
   PetscFunctionReturn(0);
 }
 
-/* PETSc prints most of its help through PetscHelpPrintf, but options that name a type straight to the terminal: while
-   somebody collects help, these lines go the same way. */
-static PetscErrorCode (*print_to_file)(FILE *, const char[], va_list);
-
-static PetscErrorCode PrintAsHelp(FILE *file, const char format[], va_list arguments)
-{
-  char   text[4096];
-  size_t length;
-
-  PetscFunctionBeginUser;
-  if (PetscHelpPrintf == PetscHelpPrintfDefault) {
-    PetscCall((*print_to_file)(file, format, arguments));
-  } else {
-    PetscCall(PetscVSNPrintf(text, sizeof text, format, &length, arguments));
-    PetscCall((*PetscHelpPrintf)(PETSC_COMM_SELF, "%s", text));
-  }
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode PgPressureProbeOptions(void *pressure)
 {
   PgPressure q = (PgPressure)pressure;
@@ -234,8 +257,6 @@ PetscErrorCode PgPressureProbeOptions(void *pressure)
   /* An object prints its options once only, so fresh ones are asked; and so does a prefix, which PETSc remembers even
      when no help was wanted. */
   PetscCall(PetscOptionsHelpPrintedDestroy(&PetscOptionsHelpPrintedSingleton));
-  print_to_file = PetscVFPrintf;
-  PetscVFPrintf = PrintAsHelp;
   PetscCall(PgPressureCreateSolver(q, &ksp));
   PetscCall(PgPressureSolverFromOptions(q, ksp));
   if (q->A) {
@@ -249,6 +270,5 @@ PetscErrorCode PgPressureProbeOptions(void *pressure)
   PetscCall(MatSetOptionsPrefix(A, "pressure_"));
   PetscCall(MatSetFromOptions(A));
   PetscCall(MatDestroy(&A));
-  PetscVFPrintf = print_to_file;
   PetscFunctionReturn(0);
 }

@@ -43,12 +43,6 @@ static PetscErrorCode TimeOptions(PgSimulation sim, PetscOptionItems *PetscOptio
                         &sim->fluid_every, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-end_time", "end of the run; default: of the case", "s", 0.0, 1e9,
                          &sim->setup.end_time, &sim->end_set));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-output_every", "time between snapshots; default a tenth of the run", "s",
-                         0.0, 1e9, &sim->output_time, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-history_every",
-                         "time between history rows; default a thousandth of the run", "s", 0.0, 1e9,
-                         &sim->history_time, NULL));
-  PetscCall(PgProgressSetFromOptions(sim, PetscOptionsObject));
   PetscCall(PgOptionInt(PetscOptionsObject, "-guard_every",
                         "steps of the discs between checks for a run that has gone wrong", 1, 1000000,
                         &sim->guard_every, NULL));
@@ -59,15 +53,25 @@ static PetscErrorCode TimeOptions(PgSimulation sim, PetscOptionItems *PetscOptio
 static PetscErrorCode ChooseCase(PgSimulation sim)
 {
   const char *const *names;
-  PetscInt           count, chosen = 0;
+  PetscInt           count, chosen          = 0;
+  char               needs[128], text[2048] = "problem to set up: ";
 
   PetscFunctionBeginUser;
   PetscCall(PgCaseGetNames(&count, &names));
-  PetscOptionsBegin(sim->comm, "", "problem", "");
-  PetscCall(PgOptionChoice(PetscOptionsObject, "-case", "problem to set up", count, names, &chosen, NULL));
+  for (PetscInt i = 0; i < count; i++) {
+    char one[256];
+    PetscCall(PgCaseFind(names[i], &sim->case_info));
+    PetscCall(PetscSNPrintf(one, sizeof one, "%s%s (%s)", i ? ", " : "", names[i], sim->case_info->summary));
+    PetscCall(PetscStrlcat(text, one, sizeof text));
+  }
+  PetscOptionsBegin(sim->comm, "", "run: what is computed, time step and end", "");
+  PetscCall(PgOptionChoice(PetscOptionsObject, "-case", text, count, names, &chosen, NULL));
   PetscOptionsEnd();
   PetscCall(PgCaseFind(names[chosen], &sim->case_info));
+  PetscCall(PetscSNPrintf(needs, sizeof needs, "-case %s", names[chosen]));
+  PetscCall(PgOptionsBelongTo(needs));
   PetscCall(sim->case_info->create(sim->comm, &sim->case_context));
+  PetscCall(PgOptionsBelongTo(NULL));
   PetscFunctionReturn(0);
 }
 
@@ -83,15 +87,21 @@ static PetscErrorCode CaseOptions(PgSimulation sim, PetscOptionItems *PetscOptio
                          &sim->setup.solid_density, NULL));
   PetscCall(PgOptionReals(PetscOptionsObject, "-gravity", "acceleration of gravity, in both phases", "m/s2", 2,
                           sim->setup.gravity, NULL));
-  PetscCall(PgOptionString(PetscOptionsObject, "-output",
-                           "result file, FILE.h5; FILE.xmf and FILE.csv are written beside it", sim->output_file,
-                           sizeof sim->output_file, NULL));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RestartOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
+static PetscErrorCode OutputOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
 {
   PetscFunctionBeginUser;
+  PetscCall(PgOptionString(PetscOptionsObject, "-output",
+                           "result file, FILE.h5; FILE.xmf and FILE.csv are written beside it", sim->output_file,
+                           sizeof sim->output_file, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-output_every", "time between snapshots; default a tenth of the run", "s",
+                         0.0, 1e9, &sim->output_time, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-history_every",
+                         "time between history rows; default a thousandth of the run", "s", 0.0, 1e9,
+                         &sim->history_time, NULL));
+  PetscCall(PgProgressSetFromOptions(sim, PetscOptionsObject));
   PetscCall(PgOptionString(PetscOptionsObject, "-checkpoint",
                            "checkpoint FILE, written at the end too; the one before it is kept as FILE.1",
                            sim->checkpoint_file, sizeof sim->checkpoint_file, NULL));
@@ -112,10 +122,12 @@ PetscErrorCode PgSimulationSetFromOptions(PgSimulation sim)
 {
   PetscFunctionBeginUser;
   PetscCall(ChooseCase(sim));
-  PetscOptionsBegin(sim->comm, "", "porograin", "");
+  PetscOptionsBegin(sim->comm, "", "run: what is computed, time step and end", "");
   PetscCall(CaseOptions(sim, PetscOptionsObject));
   PetscCall(TimeOptions(sim, PetscOptionsObject));
-  PetscCall(RestartOptions(sim, PetscOptionsObject));
+  PetscOptionsEnd();
+  PetscOptionsBegin(sim->comm, "", "output: results, checkpoints and restart", "");
+  PetscCall(OutputOptions(sim, PetscOptionsObject));
   PetscOptionsEnd();
   PetscCall(PgPackingExport(sim->comm, NULL));
   if (sim->fluid == PG_FLUID_NONE) sim->fluid_every = 1;
@@ -124,11 +136,47 @@ PetscErrorCode PgSimulationSetFromOptions(PgSimulation sim)
   PetscCall(PgDemSetFromOptions(sim->dem));
   PetscCall(PgDemSetGravity(sim->dem, sim->setup.gravity));
   if (sim->fluid != PG_FLUID_NONE) {
+    PetscCall(PgOptionsBelongTo("-fluid darcy or -fluid ns"));
     PetscCall(PgPoreCreate(sim->particles, sim->neighbors, sim->fluid, &sim->pore));
     PetscCall(PgPoreSetGravity(sim->pore, sim->setup.gravity));
     PetscCall(PgPoreSetSolidDensity(sim->pore, sim->setup.solid_density));
     PetscCall(PgPoreSetFromOptions(sim->pore));
+    PetscCall(PgOptionsBelongTo(NULL));
     sim->setup.pore = sim->pore;
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Creates a run of this case, and lets go of it: its options are known then. */
+static PetscErrorCode Mention(void *context)
+{
+  const char  *name = (const char *)context;
+  PgSimulation sim;
+  PetscBool    panel, recover;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscStrcmp(name, "panel", &panel));
+  PetscCall(PetscOptionsSetValue(NULL, "-case", name));
+  PetscCall(PetscOptionsSetValue(NULL, "-fluid", panel ? "ns" : "none"));
+  PetscCall(PgSimulationCreate(PETSC_COMM_WORLD, &sim));
+  PetscCall(PgSimulationSetFromOptions(sim));
+  PetscCall(PgSimulationDestroy(&sim));
+  PetscCall(PgResultRecoverFromOptions(PETSC_COMM_WORLD, &recover));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSimulationMentionOptions(MPI_Comm comm)
+{
+  const char *const *names;
+  PetscInt           count;
+
+  PetscFunctionBeginUser;
+  (void)comm;
+  PetscCall(PgCaseGetNames(&count, &names));
+  for (PetscInt i = 0; i < count; i++) {
+    char name[128];
+    PetscCall(PetscStrncpy(name, names[i], sizeof name));
+    PetscCall(PgOptionsApart(Mention, name));
   }
   PetscFunctionReturn(0);
 }

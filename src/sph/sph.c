@@ -32,7 +32,7 @@ PetscErrorCode PgSphSetFromOptions(PgSph sph)
 
   PetscFunctionBeginUser;
   PetscCall(PetscStrncpy(name, sph->kernel->name, sizeof name));
-  PetscOptionsBegin(PgParticlesComm(sph->particles), "", "SPH operators", "");
+  PetscOptionsBegin(PgParticlesComm(sph->particles), "", "sph: operators", "");
   PetscCall(
       PgOptionChoice(PetscOptionsObject, "-sph_operators",
                      "as printed (Eqs. 51, 52, 60), or with the gradient exact for linear and the Laplacian exact for "

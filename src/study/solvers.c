@@ -176,7 +176,7 @@ static PetscErrorCode MakePlan(PgStudy study, Plan *plan)
   PetscCall(PgCaseGetNames(&count, &names));
   for (PetscInt i = 0; i < count; i++)
     if (!strcmp(names[i], "panel")) chosen = i;
-  PetscOptionsBegin(study->comm, "", "porograin-study", "");
+  PetscOptionsBegin(study->comm, "", "run: what is computed, time step and end", "");
   PetscCall(PgOptionChoice(PetscOptionsObject, "-case", "problem to set up", count, names, &chosen, NULL));
   PetscOptionsEnd();
   PetscCall(PgCaseFind(names[chosen], &plan->info));

@@ -84,7 +84,8 @@ PetscErrorCode PgStudySolverOptions(PgStudy study, PetscOptionItems *PetscOption
   PetscCall(PgOptionString(PetscOptionsObject, "-study_solvers",
                            "file of solvers: on each line a name, then PETSc options without prefix",
                            study->solver_file, sizeof study->solver_file, &given));
-  if (!given) PetscCall(PgShippedFile(study->comm, shipped_solvers, study->solver_file, sizeof study->solver_file));
+  if (!given && !study->help)
+    PetscCall(PgShippedFile(study->comm, shipped_solvers, study->solver_file, sizeof study->solver_file));
   PetscCall(PgOptionString(PetscOptionsObject, "-study_only", "names of solvers of that file, others are passed over",
                            study->only, sizeof study->only, NULL));
   PetscFunctionReturn(0);
@@ -103,14 +104,40 @@ PetscErrorCode PgStudySetFromOptions(PgStudy study)
     PetscCall(PetscSNPrintf(one, sizeof one, "%s %s (%s)", k ? "," : ":", kinds[k]->name, kinds[k]->summary));
     PetscCall(PetscStrlcat(text, one, sizeof text));
   }
-  PetscOptionsBegin(study->comm, "", "porograin-study", "");
+  PetscOptionsBegin(study->comm, "", "study: solvers, operators and time steps compared", "");
   PetscCall(PgOptionChoice(PetscOptionsObject, "-study", text, KINDS, words, &study->kind, NULL));
   PetscCall(PgOptionString(PetscOptionsObject, "-study_output",
                            "base name of the files: NAME.csv (further tables NAME-<table>.csv) and NAME.h5",
                            study->files.base, sizeof study->files.base, NULL));
-  for (int k = 0; k < KINDS; k++)
-    if (study->help || k == study->kind) PetscCall(kinds[k]->options(study, PetscOptionsObject));
+  for (int k = 0; k < KINDS; k++) {
+    char needs[64];
+    if (!study->help && k != study->kind) continue;
+    PetscCall(PetscSNPrintf(needs, sizeof needs, "-study %s", kinds[k]->name));
+    PetscCall(PgOptionsBelongTo(needs));
+    PetscCall(kinds[k]->options(study, PetscOptionsObject));
+    PetscCall(PgOptionsBelongTo(NULL));
+  }
   PetscOptionsEnd();
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Mention(void *context)
+{
+  PgStudy study;
+
+  PetscFunctionBeginUser;
+  (void)context;
+  PetscCall(PgStudyCreate(PETSC_COMM_WORLD, &study));
+  PetscCall(PgStudySetFromOptions(study));
+  PetscCall(PgStudyDestroy(&study));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgStudyMentionOptions(MPI_Comm comm)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgOptionsApart(Mention, NULL));
+  PetscCall(PgSimulationMentionOptions(comm));
   PetscFunctionReturn(0);
 }
 

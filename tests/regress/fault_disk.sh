@@ -44,9 +44,9 @@ loadable() {
 
 # shellcheck disable=SC2086
 {
-  expect_error 2 "checkpoint 'nowhere/run.pgc': No such file or directory" "$POROGRAIN" $panel -checkpoint nowhere/run.pgc
-  expect_error 2 "checkpoint '/proc/run.pgc': " "$POROGRAIN" $panel -checkpoint /proc/run.pgc
-  expect_error 2 "checkpoint '\.': Is a directory" "$POROGRAIN" $panel -checkpoint .
+  expect_error 4 "checkpoint 'nowhere/run.pgc': No such file or directory" "$POROGRAIN" $panel -checkpoint nowhere/run.pgc
+  expect_error 4 "checkpoint '/proc/run.pgc': " "$POROGRAIN" $panel -checkpoint /proc/run.pgc
+  expect_error 4 "checkpoint '\.': Is a directory" "$POROGRAIN" $panel -checkpoint .
 }
 [ ! -e nowhere ] || fail 'a directory was made'
 
@@ -108,4 +108,4 @@ mount -o remount,ro disk
 ends 4 "cannot write [0-9.]+ MiB into checkpoint 'disk/run.pgc.tmp': Read-only file system"
 loadable disk/run.pgc
 # shellcheck disable=SC2086
-expect_error 2 "checkpoint 'disk/run.pgc': Read-only file system" "$POROGRAIN" $panel -checkpoint disk/run.pgc
+expect_error 4 "checkpoint 'disk/run.pgc': Read-only file system" "$POROGRAIN" $panel -checkpoint disk/run.pgc

@@ -1,8 +1,7 @@
 # processors: 2
-# preset: long
-# timeout: 300
+# timeout: 120
 # The shipped files: each panel file runs some fluid steps with either pressure, each solver file converges; -log_view
-# shows a stage for every phase of the step; -help prints and does nothing else.
+# shows a stage for every phase of the step.
 . "$SOURCE_DIR/tests/support/regress.sh"
 
 options="$SOURCE_DIR/options"
@@ -82,21 +81,3 @@ sed -n '/^Summary of Stages/,/^---/p' stages.log >stages.txt
 for stage in setup lists halo contact integrate porosity geometry predictor source assemble pressure corrector output; do
   expect_match "^ *[0-9]+: +$stage: " stages.txt
 done
-
-# ---- help ----
-"$POROGRAIN" -help -output help.h5 >help.log 2>&1 </dev/null || fail "-help: status $?"
-[ ! -e help.h5 ] || fail '-help runs'
-if grep -q '^step' help.log; then fail '-help runs'; fi
-"$POROGRAIN" -help -fluid ns >help-ns.log 2>&1 </dev/null || fail "-help -fluid ns: status $?"
-# One option of each room, with unit and equation.
-for option in case fluid panel_columns particles_balance neighbors_skin dem_k_n plate_friction dt output; do
-  expect_match "^ *-$option\b" help.log
-done
-for option in ns_theta bc_left_pressure permeability porosity sph_laplacian_eta pressure pressure_sweeps \
-  pressure_ksp_type pressure_ksp_rtol pressure_pc_type; do
-  expect_match "^ *-$option\b" help-ns.log
-done
-expect_match '-dem_k_n: .*Eq\. 8.*\[N/m\]' help.log
-expect_match '-permeability: .*Eq\. 26.*\[m4/\(N s\)\]' help-ns.log
-# Who asks for help sees the options of the water, too.
-expect_match '^ *-ns_theta\b' help.log

@@ -63,8 +63,8 @@ expect_error 2 "no field 'presure'; there are effective_strain, " "$POROGRAIN_PL
 expect_error 2 "no format 'gif'; there are png, svg" "$POROGRAIN_PLOT" dry.h5 -figures none -plot_format gif
 expect_error 2 "streamlines is not drawn as discs" "$POROGRAIN_PLOT" "wet run's.h5" -figures none -plot_film streamlines
 expect_error 2 "-plot_tme.*-plot_time" "$POROGRAIN_PLOT" dry.h5 -figures none -plot_tme 1
-expect_error 2 "directory 'dry.h5': it is there, and not a directory" "$POROGRAIN_PLOT" dry.h5 -figures dry.h5
-expect_error 2 "directory 'no/such': cannot make it: No such file or directory" "$POROGRAIN_PLOT" dry.h5 -figures no/such
+expect_error 4 "directory 'dry.h5': it is there, and not a directory" "$POROGRAIN_PLOT" dry.h5 -figures dry.h5
+expect_error 4 "directory 'no/such': cannot make it: No such file or directory" "$POROGRAIN_PLOT" dry.h5 -figures no/such
 nothing none
 # A program that fails: the figures there were before stay as they are.
 printf '#!/bin/sh\necho trouble >&2\nexit 3\n' >failing

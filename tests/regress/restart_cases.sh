@@ -44,8 +44,8 @@ check plates 1 1e-3 -case packing -packing_generate random -packing_count 100 -p
   -packing_top_velocity -0.05 -dt 2e-6 -fluid ns -fluid_every 5 -sph_gradient corrected
 
 # All cases but packing and panel, which are above under other names, have been here.
-"$POROGRAIN" -help >help.txt
-cases=$(sed -n 's/^ *-case: .*one of \(.*\)$/\1/p' help.txt | tr -d ' ' | tr ',' '\n')
+"$POROGRAIN" -help markdown >help.txt
+cases=$(sed -n 's/^| `-case` |[^|]*|[^|]*| \([^|]*\) |.*$/\1/p' help.txt | tr -d ' ' | tr ',' '\n')
 [ "$(echo "$cases" | wc -l)" -ge 14 ] || { grep -e -case help.txt >&2; fail "cases of -help: $cases"; }
 for name in $cases; do
   [ "$name" = packing ] || [ -e "$name.pgc" ] || fail "case $name is not restarted here"

@@ -36,6 +36,6 @@ expect_error 4 "'x.petsc': No such file" "$POROGRAIN_STUDY" -study_load x.petsc 
 expect_error 4 "'list.txt': it is not a system .*matrix: it does not begin like" "$POROGRAIN_STUDY" -study_load list.txt -study_solvers list.txt
 expect_error 4 'cannot read none.txt' "$POROGRAIN_STUDY" -study_solvers none.txt
 expect_error 2 "'solver' is not one of .*did you mean 'solvers'" "$POROGRAIN_STUDY" -study solver
-expect_error 0 '-study_mms_levels' "$POROGRAIN_STUDY" -help
+expect_error 0 '-study_mms_levels' "$POROGRAIN_STUDY" -help study
 [ "$(find . -name '*.csv' -o -name '*.h5')" = '' ] || fail 'files were written in spite of an error'
 try 0 'converged to rtol'

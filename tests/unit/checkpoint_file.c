@@ -303,11 +303,11 @@ static void other_files_are_safe(void **state)
   }
   ok(MPI_Barrier(PETSC_COMM_WORLD));
   CatchErrors();
-  assert_int_equal(PgCheckpointCheckPlace(PETSC_COMM_WORLD, file), PETSC_ERR_USER_INPUT);
+  assert_int_equal(PgCheckpointCheckPlace(PETSC_COMM_WORLD, file), PETSC_ERR_FILE_OPEN);
   CaughtErrors(text);
   CheckMessage(text, "porograin: error: checkpoint '", "this file is there and is not a checkpoint");
   CatchErrors();
-  assert_int_equal(PgCheckpointCheckPlace(PETSC_COMM_WORLD, "nowhere/a.pgc"), PETSC_ERR_USER_INPUT);
+  assert_int_equal(PgCheckpointCheckPlace(PETSC_COMM_WORLD, "nowhere/a.pgc"), PETSC_ERR_FILE_OPEN);
   CaughtErrors(text);
   CheckMessage(text, "porograin: error: checkpoint 'nowhere/a.pgc': ", "No such file or directory");
   RemoveCheckpoint(file);

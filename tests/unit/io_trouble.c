@@ -7,14 +7,15 @@
 static const PgColumn column[] = {{"time", "s", "time of the row"}};
 
 /* PgOutputCreate() refuses the name with these words and leaves nothing behind. */
-static void CheckRefused(PgParticles particles, const char file[], const char message[], const char part[])
+static void CheckRefused(PgParticles particles, PetscErrorCode code, const char file[], const char message[],
+                         const char part[])
 {
   PgOutput    output = (PgOutput)&column; /* anything but NULL */
   char        text[4096];
   struct stat found;
 
   CatchErrors();
-  assert_int_equal(PgOutputCreate(particles, file, 1, column, &output), PETSC_ERR_USER_INPUT);
+  assert_int_equal(PgOutputCreate(particles, file, 1, column, &output), code);
   CaughtErrors(text);
   CheckMessage(text, message, part);
   assert_null(output);
@@ -27,17 +28,22 @@ static void names_and_places_are_refused(void **state)
   char        path[256], message[512];
 
   (void)state;
-  CheckRefused(particles, "io_test_run.dat", "porograin: error: result file 'io_test_run.dat': ", "must end in .h5");
-  CheckRefused(particles, "io_test.h5.txt", "porograin: error: result file 'io_test.h5.txt': ", "must end in .h5");
-  CheckRefused(particles, "io_test_dir/.h5", "porograin: error: result file 'io_test_dir/.h5': ", "must end in .h5");
-  CheckRefused(particles, "", "porograin: error: result file '': ", "must end in .h5");
-  CheckRefused(particles, "io_test_a:b.h5", "porograin: error: result file 'io_test_a:b.h5': ", "must not hold ':'");
-  CheckRefused(particles, "io_test_nowhere/run.h5",
+  CheckRefused(particles, PETSC_ERR_USER_INPUT, "io_test_run.dat",
+               "porograin: error: result file 'io_test_run.dat': ", "must end in .h5");
+  CheckRefused(particles, PETSC_ERR_USER_INPUT, "io_test.h5.txt",
+               "porograin: error: result file 'io_test.h5.txt': ", "must end in .h5");
+  CheckRefused(particles, PETSC_ERR_USER_INPUT, "io_test_dir/.h5",
+               "porograin: error: result file 'io_test_dir/.h5': ", "must end in .h5");
+  CheckRefused(particles, PETSC_ERR_USER_INPUT, "", "porograin: error: result file '': ", "must end in .h5");
+  CheckRefused(particles, PETSC_ERR_USER_INPUT, "io_test_a:b.h5",
+               "porograin: error: result file 'io_test_a:b.h5': ", "must not hold ':'");
+  CheckRefused(particles, PETSC_ERR_FILE_OPEN, "io_test_nowhere/run.h5",
                "porograin: error: directory of the result file 'io_test_nowhere': ", "No such file or directory");
-  CheckRefused(particles, "/dev/null/run.h5",
+  CheckRefused(particles, PETSC_ERR_FILE_OPEN, "/dev/null/run.h5",
                "porograin: error: directory of the result file '/dev/null': ", "Not a directory");
   /* Nobody can make files there, root included. */
-  CheckRefused(particles, "/proc/io_test_run.h5", "porograin: error: result file '/proc/io_test_run.h5': ", "");
+  CheckRefused(particles, PETSC_ERR_FILE_OPEN, "/proc/io_test_run.h5",
+               "porograin: error: result file '/proc/io_test_run.h5': ", "");
 
   /* One of the three names is taken by a directory. */
   for (int k = 0; k < 3; k++) {
@@ -46,7 +52,7 @@ static void names_and_places_are_refused(void **state)
     if (test_rank == 0) assert_int_equal(mkdir(path, 0700), 0);
     ok(MPI_Barrier(PETSC_COMM_WORLD));
     (void)snprintf(message, sizeof message, "porograin: error: result file '%s': Is a directory", path);
-    CheckRefused(particles, FileName("taken", ".h5"), message, "");
+    CheckRefused(particles, PETSC_ERR_FILE_OPEN, FileName("taken", ".h5"), message, "");
     if (test_rank == 0) assert_int_equal(rmdir(path), 0);
     ok(MPI_Barrier(PETSC_COMM_WORLD));
   }
@@ -69,7 +75,7 @@ static void results_survive_a_refusal(void **state)
   }
   ok(MPI_Barrier(PETSC_COMM_WORLD));
   CatchErrors();
-  assert_int_equal(PgOutputCreate(particles, FileName("kept_taken", ".h5"), 1, column, &output), PETSC_ERR_USER_INPUT);
+  assert_int_equal(PgOutputCreate(particles, FileName("kept_taken", ".h5"), 1, column, &output), PETSC_ERR_FILE_OPEN);
   CaughtErrors(text);
   if (test_rank == 0) {
     char *kept = ReadWholeFile(FileName("kept_taken", ".h5"));

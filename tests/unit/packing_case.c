@@ -404,7 +404,7 @@ static void what_cannot_be_is_refused(void **state)
   CheckRefusedOptions("-case packing -packing_generate square -packing_count 9 -packing_size 1,1" RUN,
                       "needs one of -packing_count N and -packing_size WX,WY");
   CheckRefusedOptions("-case packing -packing_generate square -packing_size 1,-1" RUN,
-                      "option -packing_size: 1. x -1. m is no size");
+                      "option -packing_size: 1 x -1 m is no size");
   CheckRefusedOptions("-case packing -packing_generate square -packing_size 0.001,1" RUN, "not one disc fits in");
   CheckRefusedOptions("-case packing -packing_generate random -packing_count 3" RUN, "too narrow for a random packing");
   CheckRefusedOptions("-case packing -packing_generate square -packing_count 9 -packing_box 0,1,0,1" RUN,
@@ -425,9 +425,9 @@ static void what_cannot_be_is_refused(void **state)
   CheckRefusedOptions(FromFile("-packing_walls left"), "no wall on the left or right where x is periodic, as '");
   /* the worst pair is named, by ids from 0 */
   Write("0,0,1\n5,5,1\n0.75,0,0.5\n5,3.5,0.75\n");
-  CheckRefusedOptions(FromFile(""), "discs 0 and 2 (counted from 0) at (0., 0.) and (0.75, 0.) m overlap by 1.5 of");
+  CheckRefusedOptions(FromFile(""), "discs 0 and 2 (counted from 0) at (0, 0) and (0.75, 0) m overlap by 1.5 of");
   Write("0,0,1\n5,5,1\n5,5,0.5\n5,5,0.75\n");
-  CheckRefusedOptions(FromFile("-packing_max_overlap 2"), "have the same centre (5., 5.) m; 3 such pairs");
+  CheckRefusedOptions(FromFile("-packing_max_overlap 2"), "have the same centre (5, 5) m; 3 such pairs");
   Write("0,0,1\n5,5,0.00999\n");
   CheckRefusedOptions(FromFile(""), "more than 100 times the smallest");
   (void)MPI_Barrier(PETSC_COMM_WORLD);

@@ -531,11 +531,11 @@ static void places_that_are_refused(void **state)
   CaughtErrors(text);
   CheckMessage(text, "porograin: error: packing 'discs.txt': ", "must end in .csv or .h5");
   CatchErrors();
-  assert_int_equal(PgPackingWrite(PETSC_COMM_WORLD, "nowhere/discs.csv", &packing), PETSC_ERR_USER_INPUT);
+  assert_int_equal(PgPackingWrite(PETSC_COMM_WORLD, "nowhere/discs.csv", &packing), PETSC_ERR_FILE_OPEN);
   CaughtErrors(text);
   CheckMessage(text, "porograin: error: cannot write packing 'nowhere/discs.csv'", "No such file or directory");
   CatchErrors();
-  assert_int_equal(PgPackingWrite(PETSC_COMM_WORLD, folder, &packing), PETSC_ERR_USER_INPUT);
+  assert_int_equal(PgPackingWrite(PETSC_COMM_WORLD, folder, &packing), PETSC_ERR_FILE_OPEN);
   CaughtErrors(text);
   CheckMessage(text, "porograin: error: cannot write packing '", "Is a directory");
   ok(PgPackingDestroy(&packing));

@@ -205,7 +205,7 @@ static void Guard(void **state)
       CHECK(PgPoreGuard(g.pore, 5, 0.5));
     else
       FAILS(PgPoreGuard(g.pore, 5, 0.5), PETSC_ERR_NOT_CONVERGED, "step 5", "0.5 s", k == 3 ? "disc 7 " : "disc 13 ",
-            k == 1 ? "-310000" : (k == 2 ? "nan" : ", 41."), "m/s)\n");
+            k == 1 ? "-310000" : (k == 2 ? "nan" : ", 41)"), "m/s)\n");
     GroundDestroy(&g);
   }
 }

@@ -1,0 +1,148 @@
+/* Options that nobody asked for: unknown, misspelt, or of another kind of run. */
+#include "baseimpl.h"
+#include <string.h>
+#include <strings.h>
+
+static PetscErrorCode (*all_options)(MPI_Comm) = NULL;
+
+void PgOptionsSetCollector(PetscErrorCode (*collect)(MPI_Comm)) { all_options = collect; }
+
+/* Options of PETSc itself. Some it reads only when it ends, so that they would count as unknown before. */
+static const char *const petsc_options[] = {"citations",
+                                            "check_pointer_intensity",
+                                            "checkfunctionlist",
+                                            "debugger_pause",
+                                            "debugger_ranks",
+                                            "device_enable",
+                                            "device_select",
+                                            "device_view",
+                                            "display",
+                                            "error_output_none",
+                                            "error_output_stdout",
+                                            "error_stack",
+                                            "fp_trap",
+                                            "get_total_flops",
+                                            "h",
+                                            "help",
+                                            "history",
+                                            "info",
+                                            "info_exclude",
+                                            "log",
+                                            "log_all",
+                                            "log_exclude",
+                                            "log_summary",
+                                            "log_sync",
+                                            "log_threshold",
+                                            "log_trace",
+                                            "log_view",
+                                            "log_view_gpu_time",
+                                            "log_view_memory",
+                                            "malloc",
+                                            "malloc_coalesce",
+                                            "malloc_debug",
+                                            "malloc_dump",
+                                            "malloc_hbw",
+                                            "malloc_info",
+                                            "malloc_requested_size",
+                                            "malloc_test",
+                                            "malloc_view",
+                                            "malloc_view_threshold",
+                                            "memory_view",
+                                            "mpi_return_on_error",
+                                            "no_signal_handler",
+                                            "not_shared_tmp",
+                                            "nox",
+                                            "nox_warning",
+                                            "objects_dump",
+                                            "on_error_abort",
+                                            "on_error_attach_debugger",
+                                            "on_error_emacs",
+                                            "on_error_mpiabort",
+                                            "options_file",
+                                            "options_file_yaml",
+                                            "options_left",
+                                            "options_monitor",
+                                            "options_monitor_cancel",
+                                            "options_string_yaml",
+                                            "options_suppress_deprecated_warnings",
+                                            "options_view",
+                                            "petsc_ci",
+                                            "petsc_ci_portable_error_output",
+                                            "petsc_sleep",
+                                            "prefix_pop",
+                                            "prefix_push",
+                                            "saws_options",
+                                            "shared_tmp",
+                                            "skip_petscrc",
+                                            "start_in_debugger",
+                                            "stop_for_debugger",
+                                            "tmp",
+                                            "use_gpu_aware_mpi",
+                                            "version",
+                                            "x_virtual"};
+enum { PETSC_OPTIONS = sizeof petsc_options / sizeof *petsc_options };
+
+static PetscBool BelongsToPetsc(const char name[])
+{
+  for (size_t i = 0; i < PETSC_OPTIONS; i++)
+    if (!strcasecmp(name, petsc_options[i])) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+/* All names there are: of PETSc, of objects that the run has made, and of those that another run would make. */
+static PetscErrorCode LearnNames(MPI_Comm comm, PetscErrorCode (*probe)(void *), void *context)
+{
+  PetscFunctionBeginUser;
+  for (size_t i = 0; i < PETSC_OPTIONS; i++) {
+    const PgKnownOption option = {petsc_options[i], "", "", "", "", "", "", "", PETSC_TRUE};
+    PetscCall(PgKnownAdd(&option));
+  }
+  if (probe) PetscCall(PgCollectHelp(probe, context));
+  if (all_options) PetscCall(PgCollectAll(comm, all_options));
+  PetscFunctionReturn(0);
+}
+
+static const char *Dash(const char name[]) { return name[0] == '-' ? "" : "-"; }
+
+static PetscErrorCode Refuse(MPI_Comm comm, const char name[], const char value[])
+{
+  const PgKnownOption *exact = PgKnownFind(name), *pattern = PgKnownPattern(name), *nearest;
+  const char          *gap = value ? " " : "";
+
+  PetscFunctionBeginUser;
+  if (!value) value = "";
+  if (!exact && pattern && !pattern->active) exact = pattern; /* no run so far has made what would read it */
+  if (exact && !exact->active && exact->needs[0]) {
+    PetscCall(PgReport(comm, "option -%s%s%s is not read in this run, it needs %s", name, gap, value, exact->needs));
+    PetscFunctionReturn(0);
+  }
+  nearest = PgKnownNearest(name);
+  if (!nearest && pattern)
+    PetscCall(PgReport(comm, "unknown option -%s%s%s: misspelt, or of a solver that this run does not use", name, gap,
+                       value));
+  else if (!nearest)
+    PetscCall(PgReport(comm, "unknown option -%s%s%s; -help all lists all options", name, gap, value));
+  else if (!nearest->active && nearest->needs[0])
+    PetscCall(PgReport(comm, "unknown option -%s%s%s; did you mean %s%s (which needs %s)?", name, gap, value,
+                       Dash(nearest->name), nearest->name, nearest->needs));
+  else
+    PetscCall(PgReport(comm, "unknown option -%s%s%s; did you mean %s%s?", name, gap, value, Dash(nearest->name),
+                       nearest->name));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgOptionsCheckUnused(MPI_Comm comm, PetscErrorCode (*probe)(void *), void *context)
+{
+  PetscInt count, unknown = 0;
+  char   **name, **value;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsLeftGet(NULL, &count, &name, &value));
+  for (PetscInt i = 0; i < count; i++) {
+    if (BelongsToPetsc(name[i])) continue;
+    if (!unknown++) PetscCall(LearnNames(comm, probe, context));
+    PetscCall(Refuse(comm, name[i], value[i]));
+  }
+  PetscCall(PetscOptionsLeftRestore(NULL, &count, &name, &value));
+  PetscFunctionReturn(unknown ? PETSC_ERR_USER_INPUT : 0);
+}
