@@ -1,5 +1,6 @@
 /* The guard: stops a run that has gone wrong, and says where. */
 #include "demimpl.h"
+#include <stdio.h>
 
 typedef enum { FINE, OUTSIDE, OVERLAP, FAST, NOT_FINITE } Trouble;
 
@@ -166,10 +167,10 @@ PetscErrorCode PgDemGuard(PgDem dem, PetscInt step, PetscReal time)
   }
   if (kind == FINE) PetscFunctionReturn(0);
   PetscCall(Agree(dem, &discs, id, &worst, kind, s));
-  PetscCall(PetscSNPrintf(
-      where, sizeof(where),
+  (void)snprintf(
+      where, sizeof where,
       "step %" PetscInt_FMT ", time %g s: disc %" PetscInt_FMT " at (%g, %g) m, velocity (%g, %g) m/s, spin %g rad/s",
-      step, (double)time, (PetscInt)s[0], (double)s[1], (double)s[2], (double)s[3], (double)s[4], (double)s[5]));
+      step, (double)time, (PetscInt)s[0], (double)s[1], (double)s[2], (double)s[3], (double)s[4], (double)s[5]);
   if (kind == NOT_FINITE)
     PgRunError(comm, "%s: not finite; force (%g, %g) N/m, torque %g N", where, (double)s[7], (double)s[8],
                (double)s[9]);

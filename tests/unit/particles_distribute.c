@@ -190,7 +190,7 @@ static void short_period_is_refused(void **state)
   (void)state;
   CreateCloud(&cloud, particles);
   ASSERT_FAILS(PgParticlesDistribute(particles, 0.34), PETSC_ERR_USER_INPUT,
-               "the period of 1. m in x must hold at least three cells of width 0.34 m");
+               "the period of 1 m in x must hold at least three cells of width 0.34 m");
   OK(PgParticlesDistribute(particles, 0.33));
   CheckGhosts(particles, 0.33, period);
   OK(PgParticlesDestroy(&particles));
