@@ -75,13 +75,17 @@ printf 'largest difference of positions %s m, largest displacement %s m, of spin
 # line QUANTITY REFERENCE COMPUTED DIFFERENCE SCALE TOLERANCE REASON
 line() {
   local error
-  error=$(awk -v d="$4" -v s="$5" 'BEGIN { printf "%.2e", d/s }')
+  # awk takes an empty word for 0: a difference or scale that is no positive number must not pass
+  expect_close "$4" "$4" 0
+  expect_close "$5" "$5" 0
+  error=$(awk -v d="$4" -v s="$5" 'BEGIN { if (d < 0 || s <= 0) exit 1; printf "%.2e", d/s }') ||
+    fail "$1: difference $4, scale $5"
   printf 'VERIFY | LAMMPS, dry panel | %s | %s | %s | %s |  | %s | %s\n' "$1" "$2" "$3" "$error" "$6" "$7"
   expect_close "$error" 0 "$6"
 }
 # a hundred times what was seen: 4e-9, 1.5e-8, 6e-7
 reason='LAMMPS projects the tangential spring: square of the angles turned, 1e-8 of it, grown by slip'
 line 'load after 1000 steps [N/m]' "$lammps_load" "$load" \
-  "$(awk -v a="$load" -v b="$lammps_load" 'BEGIN { printf "%.9e", a > b ? a - b : b - a }')" "$lammps_load" 1e-6 "$reason"
+  "$(awk -v a="$load" -v b="$lammps_load" 'BEGIN { d = a - b; printf "%.9e", (d < 0) ? -d : d }')" "$lammps_load" 1e-6 "$reason"
 line 'positions after 1000 steps: largest difference [m], error over largest displacement' 0 "$dx" "$dx" "$way" 2e-6 "$reason"
 line 'spins after 1000 steps: largest difference [rad/s], error over largest spin' 0 "$dw" "$dw" "$spin" 1e-4 "$reason"
