@@ -100,14 +100,13 @@ static PetscErrorCode Works(Suspects *s, const PetscBool use[], PetscBool *works
    more than one is bad: the first that spoils what works so far, and what PETSc says of that. */
 static PetscErrorCode FindCulprit(Suspects *s, PetscInt *culprit)
 {
-  PetscBool use[MOST], works;
-  PetscInt  quoted = -1;
+  PetscBool use[MOST] = {PETSC_FALSE}, works;
+  PetscInt  quoted    = -1;
   char      first[sizeof message];
 
   PetscFunctionBeginUser;
   (void)snprintf(first, sizeof first, "%s", message);
   *culprit = -1;
-  for (PetscInt i = 0; i < s->count; i++) use[i] = PETSC_FALSE;
   PetscCall(Works(s, use, &works));
   if (!works) PetscFunctionReturn(0); /* not the fault of an option */
   for (PetscInt i = 0; i < s->count; i++) use[i] = PETSC_TRUE;

@@ -20,10 +20,8 @@ static void Words(const char line[], char words[2048])
   while (at < end) {
     const size_t length = strcspn(at, " \n");
     if (at + length > end) break;
-    if (length && strlen(words) + length + 3 < 2048) {
-      if (words[0]) (void)strcat(words, ", ");
-      (void)strncat(words, at, length);
-    }
+    if (length)
+      (void)snprintf(words + strlen(words), 2048 - strlen(words), "%s%.*s", words[0] ? ", " : "", (int)length, at);
     at += length + 1;
   }
 }

@@ -96,12 +96,12 @@ static PetscErrorCode StartPetsc(int *argc, char ***argv, const char about[])
   if (!err) return 0;
   if (strstr(refusal, "YAML")) {
     collective_error = PETSC_TRUE; /* every rank has read it */
-    if (rank != 0 || !argc || !PgOptionFilesFindYaml(*argc, *argv, message, sizeof message))
+    if (rank != 0 || !argc || !argv || !PgOptionFilesFindYaml(*argc, *argv, message, sizeof message))
       (void)snprintf(message, sizeof message, "options: %s", refusal);
     return RefuseToStart(PETSC_ERR_USER_INPUT, message);
   }
   if (refusal[0]) (void)snprintf(message, sizeof message, "PETSc does not start: %s", refusal);
-  for (int i = 1; argc && i + 1 < *argc; i++) { /* PETSc quotes the value without its option */
+  for (int i = 1; argc && argv && i + 1 < *argc; i++) { /* PETSc quotes the value without its option */
     if ((*argv)[i][0] == '-' && strlen((*argv)[i + 1]) > 2 && strstr(refusal, (*argv)[i + 1]))
       (void)snprintf(message, sizeof message, "option %s: %s", (*argv)[i], refusal);
   }

@@ -145,7 +145,7 @@ const PgKnownOption *PgKnownNearest(const char name[])
     const PetscInt d = PgDistance(Bare(known[i].name), Bare(name));
     if (strchr(known[i].name, '*') || d > best) continue;
     /* one that this run reads goes before one that it does not */
-    if (d == best && !(known[i].active && !nearest->active)) continue;
+    if (nearest && d == best && !(known[i].active && !nearest->active)) continue;
     best    = d;
     nearest = &known[i];
   }

@@ -16,7 +16,7 @@ typedef struct {
   size_t length;
 } Answer;
 
-static PetscErrorCode CheckFile(const char file[], PetscBool yaml, int depth, const Answer *answer);
+static PetscErrorCode CheckFile(const char given[], PetscBool yaml, int depth, const Answer *answer);
 
 /* As PETSc tells an option from a value: -9.81 and -inf are values. */
 static PetscBool IsOption(const char word[])

@@ -8,14 +8,15 @@ lines() { [ "$(wc -l <"$1")" -le "$2" ] || fail "$1 has $(wc -l <"$1") lines"; }
 
 # ---- short ----
 "$POROGRAIN" -help -fluid ns -panel_columns 4 -end_time 1e-5 -output run.h5 >short.txt 2>short.err || fail "-help: status $?"
-[ ! -e run.h5 ] && [ ! -s short.err ] || fail '-help runs'
+[ ! -e run.h5 ] || fail '-help runs'
+[ ! -s short.err ] || fail "-help: $(cat short.err)"
 # what a terminal of ordinary height shows in two pages, and the options of the first try
 lines short.txt 90
 for pattern in '^  porograin -options_file options/panel_case1_ns\.opts' '^  -case$' '^  -fluid$' '^  dem +discs in contact$' \
   '^  pressure ' '^  water ' '^    panel: hexagonal packing' '^-version' '^Exit status: 0 done, 2 bad input'; do
   expect_match "$pattern" short.txt
 done
-if grep -q PETSC short.txt && grep -q 'Options for all PETSc programs' short.txt; then fail 'the help of PETSc'; fi
+if grep -q 'Options for all PETSc programs' short.txt; then fail 'the help of PETSc'; fi
 
 # ---- sections, with units, bounds and equations, whatever the run ----
 section() {
