@@ -9,11 +9,15 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-enum { DEEPEST = 8 }; /* files named in files */
+enum {
+  DEEPEST = 8,      /* files named in files */
+  LARGEST = 1000000 /* bytes */
+};
 
 typedef struct {
   char  *message;
   size_t length;
+  int   *prefixes; /* pushed and not yet popped */
 } Answer;
 
 static PetscErrorCode CheckFile(const char given[], PetscBool yaml, int depth, const Answer *answer);
@@ -43,6 +47,24 @@ static PetscErrorCode CheckNamed(const char option[], const char value[], int de
   return CheckFile(value, yaml, depth + 1, answer);
 }
 
+/* Prefixes are put in front of the names that follow: PETSc fails when more are popped than were pushed, and on those
+   that cannot begin a name. */
+static PetscErrorCode CheckPrefix(const char option[], const char value[], const Answer *answer)
+{
+  enum { MOST = 20, LONGEST = 20 }; /* PETSc bears 25, and 512 letters in all */
+
+  if (!strcasecmp(option, "-prefix_pop")) {
+    if (--*answer->prefixes >= 0) return 0;
+    (void)snprintf(answer->message, answer->length, "-prefix_pop without -prefix_push before it");
+    return PETSC_ERR_USER_INPUT;
+  }
+  if (strcasecmp(option, "-prefix_push") != 0) return 0;
+  if (value && isalpha((unsigned char)value[0]) && strlen(value) <= LONGEST && ++*answer->prefixes <= MOST) return 0;
+  (void)snprintf(answer->message, answer->length, "-prefix_push needs up to %d letters, at most %d times", (int)LONGEST,
+                 (int)MOST);
+  return PETSC_ERR_USER_INPUT;
+}
+
 /* The next word of a line, quotes around it taken off; NULL at the end. */
 static char *NextWord(char **rest)
 {
@@ -50,7 +72,7 @@ static char *NextWord(char **rest)
   char  end  = *word;
 
   if (!end) return NULL;
-  if (end == '"' || end == '\'') {
+  if (end == '"') { /* PETSc 3.18 knows no single quotes */
     char *close = strchr(++word, end);
     *rest       = close ? close + 1 : word + strlen(word);
     if (close) *close = '\0';
@@ -67,17 +89,47 @@ static void Printable(char word[])
     if (!isprint((unsigned char)*c)) *c = '?';
 }
 
+/* Quotes are around a whole value at the end of the line: others PETSc takes for something else. */
+static PetscBool QuotesAreFine(const char line[])
+{
+  const char *first = line + strspn(line, " \t\r\n"), *open = strchr(line, '"'), *close;
+
+  if (!open) return PETSC_TRUE;
+  close = strchr(open + 1, '"');
+  return (PetscBool)(open > first && isspace((unsigned char)open[-1]) && close && close > open + 1 &&
+                     close[1 + strspn(close + 1, " \t\r\n")] == '\0');
+}
+
 static PetscErrorCode CheckLine(const char file[], int number, char line[], int depth, const Answer *answer)
 {
   char *word[3] = {NULL, NULL, NULL}, *rest = line;
 
   line[strcspn(line, "#")] = '\0';
+  if (!QuotesAreFine(line)) {
+    (void)snprintf(answer->message, answer->length,
+                   "options file '%s', line %d: quotes (\") must be around a whole value, the last of its line", file,
+                   number);
+    return PETSC_ERR_USER_INPUT;
+  }
   for (int k = 0; k < 3; k++) {
     word[k] = NextWord(&rest);
     if (!word[k]) break;
   }
-  if (!word[0] || !strcasecmp(word[0], "alias")) return 0;
-  if (IsOption(word[0]) && !IsOption(word[1]) && !word[2]) return CheckNamed(word[0], word[1], depth, answer);
+  if (!word[0]) return 0;
+  if (!strcasecmp(word[0], "alias")) {
+    if (IsOption(word[1]) && IsOption(word[2]) && !NextWord(&rest)) return 0;
+    (void)snprintf(answer->message, answer->length,
+                   "options file '%s', line %d: alias needs two names of options, as in 'alias -new -old'", file,
+                   number);
+    return PETSC_ERR_USER_INPUT;
+  }
+  if (IsOption(word[0]) && !IsOption(word[1]) && !word[2]) {
+    char           what[128];
+    const Answer   inner = {what, sizeof what, answer->prefixes};
+    PetscErrorCode err   = CheckPrefix(word[0], word[1], &inner);
+    if (err) (void)snprintf(answer->message, answer->length, "options file '%s', line %d: %s", file, number, what);
+    return err ? err : CheckNamed(word[0], word[1], depth, answer);
+  }
   for (int k = 0; k < 3; k++)
     if (word[k]) Printable(word[k]);
   if (!IsOption(word[0]))
@@ -119,12 +171,26 @@ static PetscBool Name(const char given[], PetscBool yaml, char file[PETSC_MAX_PA
   return (PetscBool)(yaml || IsYaml(file));
 }
 
+/* Opens a file that can be read twice, here and by PETSc, and to its end; NULL or why not. */
+static const char *WhyNotOpened(const char file[], FILE **in)
+{
+  struct stat found;
+
+  if (stat(file, &found)) return strerror(errno);
+  if (S_ISDIR(found.st_mode)) return strerror(EISDIR);
+  if (!S_ISREG(found.st_mode)) return "it is not a regular file";
+  if (found.st_size > LARGEST) return "it is larger than a megabyte: this is no file of options";
+  *in = fopen(file, "r");
+  return *in ? NULL : strerror(errno);
+}
+
 static PetscErrorCode CheckFile(const char given[], PetscBool yaml, int depth, const Answer *answer)
 {
   char           file[PETSC_MAX_PATH_LEN], *line = NULL;
+  const char    *reason;
   size_t         room = 0;
-  struct stat    found;
-  FILE          *in;
+  ssize_t        size;
+  FILE          *in  = NULL;
   PetscErrorCode err = 0;
 
   if (strchr(given, '$') || given[0] == '~') return 0; /* PETSc replaces such words */
@@ -134,15 +200,20 @@ static PetscErrorCode CheckFile(const char given[], PetscBool yaml, int depth, c
                    (int)DEEPEST);
     return PETSC_ERR_USER_INPUT;
   }
-  in = stat(file, &found) ? NULL : fopen(file, "r");
-  if (!in || S_ISDIR(found.st_mode)) {
-    (void)snprintf(answer->message, answer->length, "options file '%s': %s", file, strerror(in ? EISDIR : errno));
-    if (in) (void)fclose(in);
+  reason = WhyNotOpened(file, &in);
+  if (reason) {
+    (void)snprintf(answer->message, answer->length, "options file '%s': %s", file, reason);
     return PETSC_ERR_FILE_OPEN;
   }
-  for (int number = 1; !err && !yaml && getline(&line, &room, in) >= 0; number++) {
-    if (number == 1 && (!strncmp(line, "%YAML ", 6) || !strncmp(line, "---", 3))) break;
-    err = CheckLine(file, number, line, depth, answer);
+  for (int number = 1; !err && (size = getline(&line, &room, in)) >= 0; number++) {
+    if (number == 1 && (!strncmp(line, "%YAML ", 6) || !strncmp(line, "---", 3))) yaml = PETSC_TRUE;
+    if (strlen(line) != (size_t)size) { /* PETSc would not see the rest of the line */
+      (void)snprintf(answer->message, answer->length,
+                     "options file '%s', line %d: a zero byte: this is not a text file", file, number);
+      err = PETSC_ERR_USER_INPUT;
+    } else if (!yaml) {
+      err = CheckLine(file, number, line, depth, answer);
+    }
   }
   free(line);
   (void)fclose(in);
@@ -182,7 +253,8 @@ static PetscErrorCode CheckPetscrc(const Answer *answer)
 
 PetscErrorCode PgOptionFilesCheck(int argc, char *const argv[], char message[], size_t length)
 {
-  const Answer   answer      = {message, length};
+  int            prefixes    = 0;
+  const Answer   answer      = {message, length, &prefixes};
   const char    *environment = getenv("PETSC_OPTIONS");
   PetscBool      skip        = PETSC_FALSE;
   PetscErrorCode err         = 0;

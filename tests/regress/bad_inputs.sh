@@ -127,7 +127,7 @@ packing 2 outside.csv -packing_box -1,2,-1,1
 made period '#! periodic_x 1 1\n0,0,1\n3,0,1\n'
 packing 2 period.csv
 made narrow '0,0,1\n2,0,1\n'
-NAME='period of 4. m' packing 2 narrow.csv -packing_periodic -packing_box -1,3,-1,1
+NAME='period of 4 m' packing 2 narrow.csv -packing_periodic -packing_box -1,3,-1,1
 what[absent.csv]='no file of this name'
 packing 4 absent.csv
 mkdir folder.csv
@@ -305,12 +305,65 @@ number head 'no vector after the matrix' "$vector" '\000\000\000\000'
 number length 'a vector of another length' "$((vector + 4))" '\000\000\000\001'
 number infinite 'inf in the right-hand side' "$((vector + 8))" '\177\360\000\000\000\000\000\000'
 
+# ---- options files ----
+table 'Options files'
+# options STATUS NAME LABEL TEXT: a file of that name and text (printf's escapes)
+options() {
+  # shellcheck disable=SC2059
+  [ $# -lt 4 ] || printf -- "$4" >"$2"
+  bad "$1" "${NAME:-$2}" "$3" "$POROGRAIN" -panel_columns 4 -end_time 1e-5 -output result-NUMBER.h5 -options_file "$2"
+}
+# lines STATUS NAME TEXT: the text is shown
+lines() { options "$1" "$2" "\`$3\`" "$3"; }
+options 4 absent.opts 'no file of this name'
+mkdir folder.opts
+options 4 folder.opts 'a directory'
+options 4 /dev/zero '`/dev/zero`'
+head -c 2000000 /dev/zero | tr '\0' '#' >large.opts
+options 4 large.opts 'two megabytes'
+lines 2 zero.opts '-fluid none\000\n-dt 1e-6\n'
+lines 2 binary.opts '\001\002\003\n'
+lines 2 no_option.opts 'fluid none\n'
+lines 2 words.opts '-dt 1e-6 2e-6\n'
+lines 2 together.opts '-fluid none -dt 1e-6\n'
+lines 2 quotes.opts '-output "result.h5\n'
+lines 2 alias.opts 'alias -thickness\n'
+lines 2 pop.opts '-prefix_pop\n'
+lines 2 push.opts '-prefix_push\n'
+lines 2 itself.opts '-options_file itself.opts\n'
+lines 2 nameless.opts '-options_file\n'
+NAME=nowhere.opts lines 4 further.opts '-options_file nowhere.opts\n'
+lines 2 malformed.yaml 'fluid: [none\n'
+lines 2 zero.yaml 'fluid: none\000\n'
+
+# ---- options ----
+table 'Options'
+# option NAME WORDS...: refused with status 2
+option() {
+  local name=$1
+  shift
+  bad 2 "$name" "\`$*\`" "$POROGRAIN" -panel_columns 4 -end_time 1e-5 -output result-NUMBER.h5 "$@"
+}
+option -dt -dt nan
+option -dt -dt -1e-6
+option -dt -dt 1e-6s
+option -dt -dt 1e400
+option -dt -dt 1e-3
+option -panel_radius -panel_radius 0
+option -panel_rows -panel_rows 2.5
+option -panel_rows -panel_rows 99999999999
+option -gravity -gravity 0
+option -fluid -fluid water
+option -dem_mu_s -dem_mu_s
+option -permeabilty -fluid darcy -permeabilty 1e-6
+option -dem_energy -dem_energy maybe
+
 wait
 if compgen -G 'failed-*' >/dev/null; then
   cat failed-* >&2
   fail "$(find . -maxdepth 1 -name 'failed-*' | wc -l) of $count inputs"
 fi
-[ "$count" -ge 100 ] || fail "only $count bad inputs"
+[ "$count" -ge 130 ] || fail "only $count bad inputs"
 [ "$(find . -maxdepth 1 -name 'row-*-a' -size +0 | wc -l)" = "$count" ] || fail 'not one line for each input'
 {
   printf '# Bad input, and what is said about it\n\n'
