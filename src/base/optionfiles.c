@@ -127,6 +127,8 @@ static PetscErrorCode CheckLine(const char file[], int number, char line[], int 
     char           what[128];
     const Answer   inner = {what, sizeof what, answer->prefixes};
     PetscErrorCode err   = CheckPrefix(word[0], word[1], &inner);
+
+    if (!err && !word[1]) err = CheckNamed(word[0], NULL, depth, &inner);
     if (err) (void)snprintf(answer->message, answer->length, "options file '%s', line %d: %s", file, number, what);
     return err ? err : CheckNamed(word[0], word[1], depth, answer);
   }
