@@ -131,10 +131,9 @@ static void PermeabilityLaw(void **state)
   /* the same 0.9 %, and what is left of the first-order error of ends and interface (3.6 % with 24 rows) */
   VerifyValue("bed_darcy", "flux through two layers, Eq. 66, over the exact one", 1.0, 0.5 * (fine[0] + fine[1]), 1.0,
               0.02, "lattice factors 0.9 %, ends and interface 1 %");
-  VerifyValue(
-      "bed_darcy", "error of that flux: 24 over 96 rows at least", 3.0,
-      PetscMin(3.0, PetscAbsReal(0.5 * (coarse[0] + coarse[1]) - 1.0) / PetscAbsReal(0.5 * (fine[0] + fine[1]) - 1.0)),
-      3.0, 0.1, "4 if all of it were of first order");
+  VerifyRange("bed_darcy", "error of that flux: 24 over 96 rows", 2.7, 16.0,
+              PetscAbsReal(0.5 * (coarse[0] + coarse[1]) - 1.0) / PetscAbsReal(0.5 * (fine[0] + fine[1]) - 1.0),
+              "4 if all of it were of first order, 16 of second");
 }
 
 static const struct CMUnitTest tests[] = {cmocka_unit_test(Drained), cmocka_unit_test(Inflow),

@@ -141,11 +141,15 @@ static void UpwardSeepage(void **state)
     if (ranks > 1) continue; /* the rest is the same again */
     /* lifted grains move off by some um: 2 % of the submerged weight against the damping for 0.05 s */
     (void)Seepage(fluids[fluid], CORRECTED, 0.98 * i_c, &deviation, &rise, &total);
-    (void)snprintf(name, sizeof name, "rise of the top row at 0.98 i_c [m], no more than 0, %s", fluids[fluid]);
-    VerifyValue("column_seepage", name, 0.0, PetscMax(rise, 0.0), 1.0, 1e-8, "it only settles");
+    (void)snprintf(name, sizeof name, "rise of the top row at 0.98 i_c [m], %s", fluids[fluid]);
+    /* 2 % of what shortens the column at rest, 1.5e-4 of its height */
+    VerifyRange("column_seepage", name, -0.02 * 1.5e-4 * RowHeight() * ROWS, 1e-8, rise,
+                "it only settles, by 2 % of the way at rest");
     (void)Seepage(fluids[fluid], CORRECTED, 1.02 * i_c, &deviation, &rise, &total);
-    (void)snprintf(name, sizeof name, "rise of the top row at 1.02 i_c [m], 1e-6 at least, %s", fluids[fluid]);
-    VerifyValue("column_seepage", name, 1e-6, PetscMin(rise, 1e-6), 0.0, 0.0, "lifted");
+    (void)snprintf(name, sizeof name, "rise of the top row at 1.02 i_c [m], %s", fluids[fluid]);
+    /* no more than by falling up for 0.05 s with 2 % of the submerged weight, which is half the weight: 1.2e-4 m */
+    VerifyRange("column_seepage", name, 1e-6, 0.5 * 0.02 * 0.5 * g * 0.05 * 0.05, rise,
+                "lifted, slower than without drag and damping");
     load = Seepage(fluids[fluid], "", 0.5, &deviation, &rise, &total);
     (void)snprintf(name, sizeof name, "load over that at rest, i = 0.5, paper Laplacian, %s", fluids[fluid]);
     /* Darcy: cut kernels at the ends put the gradient off by 2 % over four rows of 25, times i/i_c */

@@ -35,6 +35,57 @@ static void Squeeze(Water *w, PetscInt rows, PetscInt steps, const char options[
   WaterRun(w, 0.03 / e);
 }
 
+/* Area common to circles of radius R and r at distance d: midpoint rule over strips, both circles centred on the axis.
+   The square roots at the ends leave an error of 1e-7. */
+static PetscReal Common(PetscReal R, PetscReal r, PetscReal d)
+{
+  const PetscInt  strips = 20000;
+  const PetscReal from = PetscMax(-R, d - r), to = PetscMin(R, d + r);
+  PetscReal       sum = 0.0;
+
+  if (to <= from) return 0.0;
+  for (PetscInt k = 0; k < strips; k++) {
+    const PetscReal x = from + (to - from) * ((PetscReal)k + 0.5) / (PetscReal)strips;
+    sum += 2.0 * PetscSqrtReal(PetscMax(0.0, PetscMin(R * R - x * x, r * r - (x - d) * (x - d))));
+  }
+  return sum * (to - from) / (PetscReal)strips;
+}
+
+/* Solid in a circle of 4 r around a disc of the lattice whose rows have come nearer by J, in units of r^2. */
+static PetscReal CircleCount(PetscReal J)
+{
+  PetscReal sum = 0.0;
+
+  for (int row = -4; row <= 4; row++)
+    for (int column = -4; column <= 4; column++) {
+      const PetscReal x = 2.0 * column + (row % 2 ? 1.0 : 0.0), y = SQRT3 * J * row;
+      sum += Common(4.0, 1.0, PetscSqrtReal(x * x + y * y));
+    }
+  return sum;
+}
+
+/* `rae`, Eqs. 61, 62, against a count that shares nothing with the program: the area calibrated at the start, and the
+   porosity inside after 3 % of compression. */
+static void CircleOfThePaper(void **state)
+{
+  const PetscReal full = 16.0 * PETSC_PI, r = 5e-3;
+  PetscReal       area[MOST_ROWS], n[MOST_ROWS];
+  Water           w;
+
+  (void)state;
+  Squeeze(&w, 25, 10, "-porosity rae");
+  WaterRows(&w, "sample_area", 1, 0, area, NULL);
+  WaterRows(&w, "porosity", 1, 0, n, NULL);
+  WaterEnd(&w);
+  /* strips 1e-7; the rows of the middle lie 12 away from any end, three circles */
+  VerifyValue("porosity", "rae: porosity of the circle on the lattice, by an independent count",
+              1.0 - CircleCount(1.0) / full, 1.0 - (1.0 - TOUCHING_POROSITY) * area[12] / (full * r * r), 1.0, 1e-6,
+              "strips of the count 1e-7");
+  VerifyValue("porosity", "rae: porosity inside after 3 % compression, by an independent count",
+              1.0 - (1.0 - TOUCHING_POROSITY) * CircleCount(0.97) / CircleCount(1.0), n[12], 1.0, 1e-6,
+              "strips of the count 1e-7");
+}
+
 /* Porosity of the middle row at the end: change over the exact change. */
 static PetscReal Change(PetscInt steps, const char options[])
 {
@@ -116,5 +167,6 @@ static void MassBalance(void **state)
                "the kernel sum is not constant on the lattice");
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(Kinds), cmocka_unit_test(MassBalance)};
+static const struct CMUnitTest tests[] = {cmocka_unit_test(CircleOfThePaper), cmocka_unit_test(Kinds),
+                                          cmocka_unit_test(MassBalance)};
 WATER_MAIN(tests)
