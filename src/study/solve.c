@@ -204,22 +204,28 @@ static const char *Words(KSPConvergedReason reason)
 
 static PetscErrorCode Describe(Run *run)
 {
-  PgSolveResult *result = run->result;
-  KSPNormType    norm;
-  const char    *more       = "";
-  char           needed[64] = "";
+  PgSolveResult  *result = run->result;
+  KSPNormType     norm;
+  const PetscReal rtol = run->choices->rtol;
+  const char     *more = "", *but = "";
+  char            needed[64] = "";
 
   PetscFunctionBeginUser;
   PetscCall(KSPGetNormType(run->ksp, &norm));
   if (norm == KSP_NORM_PRECONDITIONED) more = " in the preconditioned norm";
   if (norm == KSP_NORM_NATURAL) more = " in the natural norm";
+  /* what the solver calls converged need not be, in another norm or by a factor that does not fit */
+  if (result->reason > 0 && result->residual > 10.0 * rtol)
+    but = ", but the residual is above 10 rtol";
+  else if (result->reason > 0 && run->system->reference && result->error > 10.0 * rtol)
+    but = ", but the error is above 10 rtol";
   if (result->reason == KSP_DIVERGED_ITS && !isnan(result->needed))
     PetscCall(PetscSNPrintf(needed, sizeof needed, ", at its last rate %.2g", (double)result->needed));
   if (run->patience.expired)
     PetscCall(PetscSNPrintf(result->words, sizeof result->words, "stopped after %g s%s%s",
                             (double)run->choices->seconds, needed, more));
   else
-    PetscCall(PetscSNPrintf(result->words, sizeof result->words, "%s%s%s", Words(result->reason), needed, more));
+    PetscCall(PetscSNPrintf(result->words, sizeof result->words, "%s%s%s%s", Words(result->reason), needed, more, but));
   PetscFunctionReturn(0);
 }
 
@@ -265,8 +271,8 @@ static PetscErrorCode Read(Run *run)
   PetscCall(PetscMalloc1(n, &result->history));
   PetscCall(PetscArraycpy(result->history, run->history, n));
   result->history_length = n;
-  PetscCall(Describe(run));
   PetscCall(Judge(run));
+  PetscCall(Describe(run));
   PetscFunctionReturn(0);
 }
 

@@ -56,12 +56,41 @@ static PetscBool IsMissingPackage(const char message[])
   return PETSC_FALSE;
 }
 
-/* Options of one level of a multigrid (..._levels_3_...) exist only when the system has that level. */
-static PetscBool IsOfOneLevel(const char option[])
+/* What PETSc says of a misspelt value. Hypre's types come through the same lists, but are there when hypre is. */
+static PetscBool IsBadValue(const char message[])
 {
-  const char *at = strstr(option, "levels_");
+  static const char factorization[] = "Could not locate solver type ";
+  char              package[64];
 
-  return (PetscBool)(at && isdigit((unsigned char)at[7]));
+  if (!strncmp(message, "Unknown option ", 15)) return PETSC_TRUE;
+  if (strncmp(message, factorization, sizeof factorization - 1)) return PETSC_FALSE;
+  (void)snprintf(package, sizeof package, " %.*s", (int)strcspn(message + sizeof factorization - 1, " "),
+                 message + sizeof factorization - 1);
+  return (PetscBool)!IsMissingPackage(package);
+}
+
+/* Options of one level of a multigrid (..._levels_3_...) exist only when the system has that level. The small matrix
+   has level 1: they are tried as options of it. NULL: no such option. */
+static char *LevelOf(char option[])
+{
+  char *at = strstr(option, "levels_");
+
+  return at && isdigit((unsigned char)at[7]) && !isdigit((unsigned char)at[8]) ? at + 7 : NULL;
+}
+
+static void ToFirstLevel(PgSolver *s, char before[])
+{
+  for (PetscInt i = 0; i < s->options; i++) {
+    char *level = LevelOf(s->option[i]);
+    before[i]   = level ? *level : '\0';
+    if (level) *level = '1';
+  }
+}
+
+static void BackToLevels(PgSolver *s, const char before[])
+{
+  for (PetscInt i = 0; i < s->options; i++)
+    if (before[i]) *LevelOf(s->option[i]) = before[i];
 }
 
 static PetscErrorCode CheckUsed(MPI_Comm comm, const char file[], const PgSolver *s)
@@ -70,7 +99,7 @@ static PetscErrorCode CheckUsed(MPI_Comm comm, const char file[], const PgSolver
 
   PetscFunctionBeginUser;
   for (PetscInt i = 0; i < s->options; i++) {
-    if (s->used[i] || IsOfOneLevel(s->option[i])) continue;
+    if (s->used[i]) continue;
     PetscCall(PgReport(comm,
                        "%s:%" PetscInt_FMT ": solver %s: nobody reads option -%s%s%s; misspelt, or of another solver",
                        file, s->line, s->name, s->option[i], s->value[i] ? " " : "", s->value[i] ? s->value[i] : ""));
@@ -94,18 +123,21 @@ PetscErrorCode PgSolverListCheck(MPI_Comm comm, PgSolverList *list)
     PgTrouble      trouble;
     PgOverride     o = {0};
     PetscErrorCode code;
+    char           level[PG_OVERRIDES];
 
+    ToFirstLevel(s, level);
     PetscCall(PgSolverPut(s, s->prefix, &o));
     PetscCall(PgTroubleBegin(&trouble));
     code = Try(A, s, b, x);
     PetscCall(PgTroubleEnd(comm, &code));
     PetscCall(PgSolverTake(s, &o));
+    BackToLevels(s, level);
     if (code == 0) {
       code = CheckUsed(comm, list->file, s);
       if (code) bad = code;
-    } else if ((code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_ARG_WRONG || code == PETSC_ERR_USER_INPUT ||
-                code == PETSC_ERR_ARG_OUTOFRANGE) &&
-               !IsMissingPackage(trouble.message)) {
+    } else if (IsBadValue(trouble.message) || ((code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_ARG_WRONG ||
+                                                code == PETSC_ERR_USER_INPUT || code == PETSC_ERR_ARG_OUTOFRANGE) &&
+                                               !IsMissingPackage(trouble.message))) {
       PetscCall(PgReport(comm, "%s:%" PetscInt_FMT ": solver %s: %s", list->file, s->line, s->name, trouble.message));
       bad = PETSC_ERR_USER_INPUT;
     }

@@ -56,12 +56,13 @@ begin place/run.pgc
 rm place/run.pgc
 await place/run.pgc
 rm -r place
-ends 4 "cannot write [0-9.]+ MiB into checkpoint 'place/run.pgc.tmp': No such file or directory"
+# at which of its calls a run notices depends on the moment: creating, writing, sealing
+ends 4 "cannot .*checkpoint 'place/run.pgc(.tmp)?': .*[Nn]o such file or directory"
 
 # The result file vanishes.
 begin run.pgc -output run.h5 -output_every 1e-3
 rm run.h5
-ends 4 "cannot write [0-9.]+ MiB more into result file 'run.h5': No such file or directory"
+ends 4 "cannot .*result file 'run.h5'.*: .*[Nn]o such file or directory"
 loadable run.pgc
 
 # No more room: a limit on the size of files stands in for a full disk where none can be mounted.
@@ -105,7 +106,7 @@ h5ls -r disk/run.h5 | grep -q '^/snapshots/000000/position' || fail 'results on 
 rm -f disk/*
 begin disk/run.pgc
 mount -o remount,ro disk
-ends 4 "cannot write [0-9.]+ MiB into checkpoint 'disk/run.pgc.tmp': Read-only file system"
+ends 4 "cannot .*checkpoint 'disk/run.pgc(.tmp)?': .*([Rr]ead-only file system|MPI_ERR_READ_ONLY)"
 loadable disk/run.pgc
 # shellcheck disable=SC2086
 expect_error 4 "checkpoint 'disk/run.pgc': Read-only file system" "$POROGRAIN" $panel -checkpoint disk/run.pgc

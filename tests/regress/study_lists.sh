@@ -10,6 +10,20 @@ printf 'good -ksp_type cg -pc_type jacobi\nbad -ksp_type cg -pc_type bjacobi -su
 try 2 'list.txt:2: solver bad: nobody reads option -sub_pc_factor_level 1'
 printf 'bad -ksp_type cg -pc_type jaccobi\n' >list.txt
 try 2 'list.txt:1: solver bad: .*jaccobi'
+# values of PETSc's lists, and an option of one level of a multigrid, whether the system has that level or not
+while read -r pattern options; do
+  printf '# one\nbad -ksp_type cg %s\n' "$options" >list.txt
+  try 2 "list.txt:2: solver bad: .*$pattern"
+done <<'END'
+HMISS -pc_type hypre -pc_hypre_type boomeramg -pc_hypre_boomeramg_coarsen_type HMISS
+boomeram -pc_type hypre -pc_hypre_type boomeram
+unprec -pc_type jacobi -ksp_norm_type unprec
+mump -pc_type cholesky -pc_factor_mat_solver_type mump
+mg_levels_1_ksp_typo -pc_type gamg -mg_levels_1_ksp_typo 3
+mg_levels_7_ksp_typo -pc_type gamg -mg_levels_7_ksp_typo 3
+END
+printf 'good -ksp_type cg -pc_type gamg -mg_levels_7_ksp_max_it 3\n' >list.txt
+try 0 'converged to rtol'
 printf '# one\nbad -ksp_type cg -ksp_max_it ten\n' >list.txt
 try 2 'list.txt:2: solver bad: .*ten'
 printf 'bad -ksp_type cg 5 -pc_type jacobi 7\n' >list.txt

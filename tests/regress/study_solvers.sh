@@ -39,6 +39,21 @@ done
 h5ls -r ranks2.h5 >objects
 expect_match '/study/003/history' objects
 
+# Levels and complexity of BoomerAMG's grids are those that hypre prints of itself, to its seven digits.
+echo 'talkative -ksp_type cg -pc_type hypre -pc_hypre_boomeramg_print_statistics' >talkative.txt
+"$POROGRAIN_STUDY" -study_sizes 1249 -study_solvers talkative.txt -study_repeats 1 -study_output talkative >talkative.out
+levels=$(sed -n 's/^ *Num levels = //p' talkative.out | tail -n 1)
+complexity=$(sed -n 's/^ *operator = //p' talkative.out | tail -n 1)
+[ "$(columns talkative levels)" = "$levels" ] || fail "$(columns talkative levels) levels, hypre says $levels"
+expect_close "$(columns talkative operator_complexity)" "$complexity" 1e-6
+# Conditions of the Jacobi-scaled matrix go with the square of the spacing: 4 for half of it, but for the sides, whose
+# part is the spacing over the width, 1/25. The value itself is that of this lattice as computed before (713).
+"$POROGRAIN_STUDY" -study_sizes 1249,5000 -study_solvers "$all" -study_only cg-jacobi -study_condition -study_repeats 1 \
+  -study_output condition >condition.out
+set -- $(columns condition condition)
+expect_close "$1" 713 7
+expect_close "$(awk "BEGIN { print $2 / $1 }")" 4 0.16
+
 # What a solver cannot do is a row, not an end: CHOLMOD on two ranks, CG for a matrix that is not symmetric.
 run 2 "$POROGRAIN_STUDY" -study_sizes 200 -study_solvers "$all" -study_only cholmod,cg-jacobi -study_output rows >rows.out
 expect_match 'cholmod .*failed: ' rows.out
