@@ -54,9 +54,9 @@ loadable() {
 # A checkpoint that vanishes is written again; its directory is another matter.
 mkdir place
 begin place/run.pgc
-rm place/run.pgc
+rm -f place/run.pgc # while it is renamed there is none for a moment
 await place/run.pgc
-rm -r place
+until rm -r place 2>/dev/null; do [ -e place ] || break; done # a new file may come in the middle
 # at which of its calls a run notices depends on the moment: creating, writing, sealing
 ends 4 ".*checkpoint 'place/run.pgc(.tmp)?': .*[Nn]o such file or directory"
 
@@ -106,7 +106,8 @@ h5ls -r disk/run.h5 | grep -q '^/snapshots/000000/position' || fail 'results on 
 # read-only from the start, and from the middle on
 rm -f disk/*
 begin disk/run.pgc
-mount -o remount,ro disk
+# busy while a checkpoint is being written
+for _ in $(seq 200); do if mount -o remount,ro disk 2>mount.err; then break; else sleep 0.01; fi; done
 ends 4 ".*checkpoint 'disk/run.pgc(.tmp)?': .*([Rr]ead-only file system|MPI_ERR_READ_ONLY)"
 loadable disk/run.pgc
 # shellcheck disable=SC2086
