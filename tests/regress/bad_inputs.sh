@@ -1,3 +1,4 @@
+# preset: long
 # processors: 2
 # timeout: 900
 # Bad input of every kind, given to the programs: each is refused with its status and one message that names the file,
