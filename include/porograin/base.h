@@ -47,12 +47,18 @@ static inline PgReal2 PgTwo(const PetscReal v[], PetscInt i) { return (PgReal2){
 /* A run that cannot go on, found by every rank of comm alike (collective). */
 #define PgRunError(comm, ...)                                                                                          \
   do {                                                                                                                 \
-    PetscCall(PgReport((comm), __VA_ARGS__));                                                                          \
+    PetscCall(PgReportRun((comm), __VA_ARGS__));                                                                       \
     return PETSC_ERR_NOT_CONVERGED;                                                                                    \
   } while (0)
 
 /* Prints "porograin: error: ..." on standard error from rank 0 of comm. Collective. */
 PETSC_EXTERN PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+/* The same, with the cause in front when PgSetCause() has named somebody who finds one. Collective. */
+PETSC_EXTERN PetscErrorCode PgReportRun(MPI_Comm comm, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+/* Whom to ask, before a failure of the run is reported, whether something else is behind it: what is noticed first is
+   often only the consequence. find() writes the cause, or leaves `cause` empty; it is collective and must not fail with
+   PgRunError() itself. NULL: nobody. */
+PETSC_EXTERN PetscErrorCode PgSetCause(PetscErrorCode (*find)(void *context, char cause[], size_t size), void *context);
 
 /* Starts MPI (unless the caller did) and PETSc with porograin's error handler (one readable message instead of a call
    stack; the stack comes back with -error_stack) and its log stages. Files of options are looked at first: a missing
@@ -142,6 +148,13 @@ PETSC_EXTERN void PgTerminalShow(const char text[]);
 PETSC_EXTERN void PgTerminalClear(void);
 /* Takes the line away for good; PgFinalize() does it too. */
 PETSC_EXTERN void PgTerminalEnd(void);
+
+/* ---- one record among those of all ranks ---- */
+
+/* The rank with the largest value, of equal ones with the smallest ids (first, then second), for a message that is the
+   same on any number of ranks. A rank without a record gives first < 0; *holder < 0: no rank has one. Collective. */
+PETSC_EXTERN PetscErrorCode PgFindHolder(MPI_Comm comm, PetscReal value, PetscInt first, PetscInt second,
+                                         PetscMPIInt *holder);
 
 /* ---- sums over all discs ---- */
 

@@ -74,6 +74,10 @@ PETSC_EXTERN PetscErrorCode PgPorePredict(PgPore pore, PetscReal dt_f);
    velocities; with the two-phase projection the discs' velocities too. Collective. */
 PETSC_EXTERN PetscErrorCode PgPoreCorrect(PgPore pore, PetscReal dt_f);
 PETSC_EXTERN PetscErrorCode PgPoreGetStats(PgPore pore, PgPoreStats *stats);
+/* What in the water may be behind a failure that somebody else has noticed: its worst disc when it is beyond the bounds of
+   the guard, or when a setting is known to be unstable; else an empty text. For PgSetCause(), `pore` is a PgPore.
+   Collective. */
+PETSC_EXTERN PetscErrorCode PgPoreFindCause(void *pore, char cause[], size_t size);
 /* Stops the run when a pressure or velocity is not finite or beyond -pore_guard_pressure,
    -pore_guard_speed, or when more than -pore_guard_clipped of the porosities are out of range. Collective. */
 PETSC_EXTERN PetscErrorCode PgPoreGuard(PgPore pore, PetscInt step, PetscReal time);

@@ -40,22 +40,59 @@ PetscErrorCode PgHandleError(MPI_Comm comm, int line, const char *function, cons
   return code;
 }
 
-PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...)
+static PetscErrorCode Report(MPI_Comm comm, const char cause[], const char format[], va_list arguments)
 {
-  PetscMPIInt rank;
-  char        text[4096];
-  va_list     arguments;
+  PetscMPIInt  rank;
+  char         text[4096];
+  const size_t used = strlen(cause);
 
   PetscFunctionBeginUser;
   collective_error = PETSC_TRUE;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
-    va_start(arguments, format);
-    (void)vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
+    (void)snprintf(text, sizeof text, "%s", cause);
+    (void)vsnprintf(text + used, sizeof text - used, format, arguments);
     PrintError(text);
   }
   PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...)
+{
+  PetscErrorCode err;
+  va_list        arguments;
+
+  PetscFunctionBeginUser;
+  va_start(arguments, format);
+  err = Report(comm, "", format, arguments);
+  va_end(arguments);
+  PetscFunctionReturn(err);
+}
+
+static PetscErrorCode (*find_cause)(void *, char[], size_t) = NULL;
+static void *cause_context                                  = NULL;
+
+PetscErrorCode PgSetCause(PetscErrorCode (*find)(void *context, char cause[], size_t size), void *context)
+{
+  PetscFunctionBeginUser;
+  find_cause    = find;
+  cause_context = context;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgReportRun(MPI_Comm comm, const char format[], ...)
+{
+  PetscErrorCode err;
+  va_list        arguments;
+  char           cause[2048] = "";
+
+  PetscFunctionBeginUser;
+  if (find_cause) PetscCall((*find_cause)(cause_context, cause, sizeof cause - 32));
+  if (cause[0]) (void)snprintf(cause + strlen(cause), 32, ". It shows as: ");
+  va_start(arguments, format);
+  err = Report(comm, cause, format, arguments);
+  va_end(arguments);
+  PetscFunctionReturn(err);
 }
 
 static PetscBool petsc_runs = PETSC_FALSE;

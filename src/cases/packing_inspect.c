@@ -204,27 +204,6 @@ static void LookOutside(Search *s, PetscInt a)
 
 /* ---- all ranks ---- */
 
-/* Which rank holds the largest value, of the smallest id among equals: so that all can take what goes with it. */
-static PetscErrorCode Holder(MPI_Comm comm, PetscReal value, PetscInt first, PetscInt second, PetscMPIInt *holder)
-{
-  PetscInt    id[2] = {first < 0 ? PETSC_MAX_INT : first, second};
-  PetscReal   most  = value;
-  PetscMPIInt rank, size;
-
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCallMPI(MPI_Comm_size(comm, &size));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_REAL, MPIU_MAX, comm));
-  for (int k = 0; k < 2; k++) {
-    PetscInt least = value == most ? id[k] : PETSC_MAX_INT;
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_INT, MPI_MIN, comm));
-    if (id[k] != least) value = -PETSC_MAX_REAL;
-  }
-  *holder = value == most ? rank : size - 1;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, holder, 1, MPI_INT, MPI_MIN, comm));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode Agree(MPI_Comm comm, Search *s)
 {
   PgPackingFindings *f        = s->f;
@@ -234,13 +213,17 @@ static PetscErrorCode Agree(MPI_Comm comm, Search *s)
   PetscMPIInt        holder;
 
   PetscFunctionBeginUser;
-  PetscCall(Holder(comm, f->overlap, f->pair[0], f->pair[1], &holder));
-  PetscCallMPI(MPI_Bcast(&f->overlap, 1, MPIU_REAL, holder, comm));
-  PetscCallMPI(MPI_Bcast(f->pair, 2, MPIU_INT, holder, comm));
-  PetscCallMPI(MPI_Bcast(f->place, 4, MPIU_REAL, holder, comm));
-  PetscCall(Holder(comm, f->outside, f->outside_disc, 0, &holder));
-  PetscCallMPI(MPI_Bcast(&f->outside, 1, MPIU_REAL, holder, comm));
-  PetscCallMPI(MPI_Bcast(&f->outside_disc, 1, MPIU_INT, holder, comm));
+  PetscCall(PgFindHolder(comm, f->overlap, f->pair[0], f->pair[1], &holder));
+  if (holder >= 0) {
+    PetscCallMPI(MPI_Bcast(&f->overlap, 1, MPIU_REAL, holder, comm));
+    PetscCallMPI(MPI_Bcast(f->pair, 2, MPIU_INT, holder, comm));
+    PetscCallMPI(MPI_Bcast(f->place, 4, MPIU_REAL, holder, comm));
+  }
+  PetscCall(PgFindHolder(comm, f->outside, f->outside_disc, 0, &holder));
+  if (holder >= 0) {
+    PetscCallMPI(MPI_Bcast(&f->outside, 1, MPIU_REAL, holder, comm));
+    PetscCallMPI(MPI_Bcast(&f->outside_disc, 1, MPIU_INT, holder, comm));
+  }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 3, MPIU_INT64, MPI_SUM, comm));
   PetscCall(PgExactSumReduce(comm, 4, sum, value));
   f->touching    = count[0];

@@ -144,20 +144,17 @@ static PetscErrorCode ReportTooStiff(PgDem dem, const Stiffest *stiffest, PetscR
   MPI_Comm        comm = PgParticlesComm(dem->particles);
   const PetscInt *id;
   PetscReal      *x, *m, *share, sent[5] = {0};
-  PetscInt        mine = PETSC_MAX_INT, first;
-  PetscMPIInt     rank, holder;
+  PetscInt        mine = -1;
+  PetscMPIInt     holder;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(PgParticlesGetIds(dem->particles, &id));
   PetscCall(PgParticlesGetArray(dem->particles, PG_POSITION, &x));
   PetscCall(PgParticlesGetArray(dem->particles, PG_MASS, &m));
   PetscCall(PgParticlesGetArray(dem->particles, dem->share, &share));
-  if (stiffest->limit == limit && stiffest->disc >= 0) mine = id[stiffest->disc];
-  PetscCallMPI(MPI_Allreduce(&mine, &first, 1, MPIU_INT, MPI_MIN, comm));
-  holder = mine == first ? rank : PETSC_MPI_INT_MAX;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &holder, 1, MPI_INT, MPI_MIN, comm));
-  if (rank == holder) {
+  if (stiffest->disc >= 0) mine = id[stiffest->disc];
+  PetscCall(PgFindHolder(comm, -stiffest->limit, mine, 0, &holder));
+  if (stiffest->disc >= 0) {
     const PetscInt  i      = stiffest->disc;
     const PetscReal all[5] = {(PetscReal)id[i], x[2 * i], x[2 * i + 1], m[i], share[i]};
     PetscCall(PetscArraycpy(sent, all, 5));

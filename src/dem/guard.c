@@ -107,21 +107,16 @@ static PetscErrorCode WorstKind(MPI_Comm comm, const Offender *mine, Trouble *ki
 static PetscErrorCode Agree(PgDem dem, const PgDemDiscs *discs, const PetscInt id[], const Offender *mine, Trouble kind,
                             PetscReal sent[SENT])
 {
-  MPI_Comm    comm = PgParticlesComm(dem->particles);
-  PetscMPIInt rank, winner;
-  PetscReal  *force, *torque, value = mine->kind == kind ? mine->value : -1, worst;
-  PetscInt    i = mine->disc, mine_id = PETSC_MAX_INT, first;
+  MPI_Comm       comm = PgParticlesComm(dem->particles);
+  const PetscInt i    = mine->disc;
+  PetscMPIInt    holder;
+  PetscReal     *force, *torque;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCallMPI(MPI_Allreduce(&value, &worst, 1, MPIU_REAL, MPIU_MAX, comm));
-  if (mine->kind == kind && value == worst) mine_id = id[i];
-  PetscCallMPI(MPI_Allreduce(&mine_id, &first, 1, MPIU_INT, MPI_MIN, comm));
-  winner = mine_id == first ? rank : PETSC_MPI_INT_MAX;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &winner, 1, MPI_INT, MPI_MIN, comm));
+  PetscCall(PgFindHolder(comm, mine->value, mine->kind == kind ? id[i] : -1, 0, &holder));
   PetscCall(PgParticlesGetArray(dem->particles, dem->force, &force));
   PetscCall(PgParticlesGetArray(dem->particles, dem->torque, &torque));
-  if (rank == winner) {
+  if (mine->kind == kind) {
     const PetscReal *x = &discs->position[2 * i], *v = &discs->velocity[2 * i];
     const PetscReal  all[SENT] = {(PetscReal)id[i],
                                   x[0],
@@ -141,7 +136,7 @@ static PetscErrorCode Agree(PgDem dem, const PgDemDiscs *discs, const PetscInt i
       sent[9] = torque[i];
     }
   }
-  PetscCallMPI(MPI_Bcast(sent, SENT, MPIU_REAL, winner, comm));
+  PetscCallMPI(MPI_Bcast(sent, SENT, MPIU_REAL, holder, comm));
   PetscFunctionReturn(0);
 }
 

@@ -80,17 +80,13 @@ PetscErrorCode PgDemCheckState(PgDem dem, const char file[])
 {
   MPI_Comm    comm = PgParticlesComm(dem->particles);
   Bad         bad  = {"", PETSC_MAX_INT, 0};
-  PetscInt    first;
-  PetscMPIInt rank, holder;
+  PetscMPIInt holder;
   char        text[160] = "";
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(FindBad(dem, &bad));
-  PetscCallMPI(MPI_Allreduce(&bad.id, &first, 1, MPIU_INT, MPI_MIN, comm));
-  if (first == PETSC_MAX_INT) PetscFunctionReturn(0);
-  holder = bad.id == first ? rank : PETSC_MPI_INT_MAX;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &holder, 1, MPI_INT, MPI_MIN, comm));
+  PetscCall(PgFindHolder(comm, 0, bad.id == PETSC_MAX_INT ? -1 : bad.id, 0, &holder));
+  if (holder < 0) PetscFunctionReturn(0);
   PetscCall(
       PetscSNPrintf(text, sizeof text, "%s of disc %" PetscInt_FMT " is %g", bad.name, bad.id, (double)bad.value));
   PetscCallMPI(MPI_Bcast(text, sizeof text, MPI_CHAR, holder, comm));

@@ -155,36 +155,32 @@ static PetscErrorCode ReportTooFar(PgNeighbors neighbors, const PetscReal now[],
                                    PetscReal furthest)
 {
   MPI_Comm        comm = PgParticlesComm(neighbors->particles);
-  PetscInt        owned, least = PETSC_MAX_INT, found = -1;
+  PetscInt        owned, found = -1, which = -1;
   const PetscInt *id;
-  PetscMPIInt     rank, holder = -1;
+  PetscMPIInt     holder;
   PetscReal       at[2] = {0, 0};
 
   PetscFunctionBeginUser;
   PetscCall(PgParticlesGetSizes(neighbors->particles, &owned, NULL, NULL));
   PetscCall(PgParticlesGetIds(neighbors->particles, &id));
   for (PetscInt i = 0; i < owned; i++) {
-    if (Displacement2(now + 2 * i, then + 2 * i) >= furthest && id[i] < least) {
-      least = id[i];
-      found = i;
-    }
+    if (Displacement2(now + 2 * i, then + 2 * i) >= furthest && (found < 0 || id[i] < id[found])) found = i;
   }
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_INT, MPI_MIN, comm));
-  if (found >= 0 && id[found] == least) {
-    holder = rank;
-    at[0]  = now[2 * found];
-    at[1]  = now[2 * found + 1];
+  if (found >= 0) {
+    which = id[found];
+    at[0] = now[2 * found];
+    at[1] = now[2 * found + 1];
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &holder, 1, MPI_INT, MPI_MAX, comm));
+  PetscCall(PgFindHolder(comm, 0, which, 0, &holder));
+  PetscCallMPI(MPI_Bcast(&which, 1, MPIU_INT, holder, comm));
   PetscCallMPI(MPI_Bcast(at, 2, MPIU_REAL, holder, comm));
   if (furthest >= PETSC_MAX_REAL)
     PgRunError(comm, "the position (%g, %g) m of particle %" PetscInt_FMT " is not finite or out of bounds",
-               (double)at[0], (double)at[1], least);
+               (double)at[0], (double)at[1], which);
   PgRunError(comm,
              "particle %" PetscInt_FMT " at (%g, %g) m has moved by %g m since the pair lists were built, more than "
              "their skin of %g m: it is too fast for the time step (or for -neighbors_skin)",
-             least, (double)at[0], (double)at[1], (double)PetscSqrtReal(furthest), (double)neighbors->skin);
+             which, (double)at[0], (double)at[1], (double)PetscSqrtReal(furthest), (double)neighbors->skin);
 }
 
 PetscErrorCode PgNeighborsNeedBuild(PgNeighbors neighbors, PetscBool *need)

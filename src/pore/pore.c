@@ -86,8 +86,6 @@ PetscErrorCode PgPoreCreate(PgParticles particles, PgNeighbors neighbors, PgFlui
   p->guard_speed      = 1.0e3;
   p->guard_clipped    = 0.5;
   p->grad_p_revision  = -1;
-  p->advice           = "";
-  p->side_advice      = "";
   for (int s = 0; s < PG_SIDE_COUNT; s++) p->boundary[s] = (PgBoundary){PG_BC_DRAINED, p->p_initial, 0.0};
   PetscCall(PgDragLawFind("ergun_wen_yu", &p->drag_law));
   PetscCall(PgSphCreate(particles, neighbors, &p->sph));
@@ -245,30 +243,18 @@ PetscErrorCode PgPoreSetFromOptions(PgPore pore)
 
 PetscErrorCode PgPoreCheckStep(PgPore pore, PetscReal dt_f)
 {
-  MPI_Comm        comm      = PgParticlesComm(pore->particles);
-  const PetscBool staggered = (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE &&
-                                          pore->coupling_scheme == PG_SCHEME_STAGGERED);
-  PetscBool       natural   = PETSC_FALSE;
+  MPI_Comm comm = PgParticlesComm(pore->particles);
 
   PetscFunctionBeginUser;
-  for (int s = 0; s < PG_SIDE_COUNT; s++) natural = (PetscBool)(natural || pore->boundary[s].kind == PG_BC_NATURAL);
-  pore->advice = "";
-  if (pore->fluid == PG_FLUID_NS && natural)
-    pore->advice =
-        "; sides of kind natural are unstable with the Navier-Stokes scheme: use drained, impermeable or flux";
-  if (pore->fluid == PG_FLUID_NS && pore->theta < 0.57) {
+  if (PgPoreThetaIsSmall(pore))
     PetscCall(PetscPrintf(comm,
                           "warning: -ns_theta %g is below 0.57: with the paper's operators long waves of the pressure "
                           "grow below 0.566\n",
                           (double)pore->theta));
-    pore->advice = "; -ns_theta below 0.57 is unstable with the paper's operators";
-  }
-  if (staggered && pore->fluid == PG_FLUID_NS && pore->continuity == PG_CONTINUITY_AVERAGED) {
+  if (PgPoreIsLooselyCoupled(pore))
     PetscCall(PetscPrintf(comm, "warning: -coupling_scheme staggered with -ns_continuity averaged is unstable for "
                                 "every time step (added mass of the pore water)\n"));
-    pore->advice = "; -coupling_scheme staggered is unstable with averaged continuity: use projection";
-  }
-  if (staggered && pore->fluid == PG_FLUID_DARCY) {
+  if (PgPoreIsStaggered(pore) && pore->fluid == PG_FLUID_DARCY) {
     const PetscReal bound = 2.0 * pore->k_p * (1.0 - 0.1) * pore->rho_s; /* 2 k_p (1 - n) rho_s at n = 0.1 */
     PgInputCheck(dt_f < bound, comm,
                  "-coupling_scheme staggered with Darcy's law is unstable for a fluid step of %g s: it must be below 2 "

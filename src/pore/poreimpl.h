@@ -85,8 +85,8 @@ struct PgPore_s {
 
   PgOverlaps overlaps;
 
-  const char *advice, *side_advice; /* what to change, appended to the message of the guard */
   PgPoreStats stats;
+  PetscInt    free_sides; /* discs of impermeable or flux sides that no plate holds, of all ranks */
   PetscInt    clipped, characteristic_failures; /* of this rank in this step */
 };
 
@@ -139,6 +139,24 @@ PETSC_INTERN PetscErrorCode PgCharacteristic(PgPore pore, const PgPoreArrays *s,
 PETSC_INTERN PetscErrorCode PgPressureGradient(PgPore pore);
 /* Laplacian of the excess pressure of t_n on the geometry of t_n+1, before the solve. */
 PETSC_INTERN PetscErrorCode PgPressureLaplacian(PgPore pore, const PgPoreArrays *s, PetscReal laplacian[]);
+
+static inline PetscBool PgPoreIsStaggered(PgPore pore)
+{
+  return (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE && pore->coupling_scheme == PG_SCHEME_STAGGERED);
+}
+
+/* Unstable for every time step: the added mass of the water is larger than the mass of the discs. */
+static inline PetscBool PgPoreIsLooselyCoupled(PgPore pore)
+{
+  return (PetscBool)(PgPoreIsStaggered(pore) && pore->fluid == PG_FLUID_NS &&
+                     pore->continuity == PG_CONTINUITY_AVERAGED);
+}
+
+/* With the paper's operators long waves of the pressure grow below 0.566. */
+static inline PetscBool PgPoreThetaIsSmall(PgPore pore)
+{
+  return (PetscBool)(pore->fluid == PG_FLUID_NS && pore->theta < 0.57);
+}
 
 static inline PetscBool PgPoreIsProjected(PgPore pore)
 {

@@ -126,7 +126,7 @@ static PetscErrorCode WarnOfFreeSides(PgPore pore)
   MPI_Comm     comm  = PgParticlesComm(pore->particles);
 
   PetscFunctionBeginUser;
-  pore->side_advice = "";
+  pore->free_sides = 0;
   if (!PgPoreIsProjected(pore) || pore->fluid != PG_FLUID_NS) PetscFunctionReturn(0);
   PetscCall(PgPoreGetArrays(pore, &s));
   for (PetscInt a = 0; a < s.owned; a++)
@@ -138,8 +138,7 @@ static PetscErrorCode WarnOfFreeSides(PgPore pore)
                         " discs of impermeable or flux sides are on no plate: with -coupling drag_and_pressure walls "
                         "must hold them, a side that nothing holds is unstable\n",
                         count));
-  pore->side_advice = "; an impermeable or flux side that neither plate nor wall holds is unstable with -coupling "
-                      "drag_and_pressure";
+  pore->free_sides = count;
   PetscFunctionReturn(0);
 }
 

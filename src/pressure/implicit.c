@@ -113,12 +113,11 @@ static PetscErrorCode DescribeWorst(PgPressure q, char text[], size_t length)
 {
   const PetscScalar *r, *x;
   const PetscInt    *id;
-  PetscReal         *position, sent[5] = {0}, worst = -1.0, all;
-  PetscInt           at = 0, first = PETSC_MAX_INT, least;
-  PetscMPIInt        rank, holder;
+  PetscReal         *position, sent[5] = {0}, worst = -1.0;
+  PetscInt           at = 0;
+  PetscMPIInt        holder;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(q->comm, &rank));
   PetscCall(PgParticlesGetIds(q->particles, &id));
   PetscCall(PgParticlesGetArray(q->particles, PG_POSITION, &position));
   PetscCall(VecGetArrayRead(q->r, &r));
@@ -129,12 +128,8 @@ static PetscErrorCode DescribeWorst(PgPressure q, char text[], size_t length)
     worst = size;
     at    = i;
   }
-  PetscCallMPI(MPI_Allreduce(&worst, &all, 1, MPIU_REAL, MPIU_MAX, q->comm));
-  if (worst == all && q->owned) first = id[at];
-  PetscCallMPI(MPI_Allreduce(&first, &least, 1, MPIU_INT, MPI_MIN, q->comm));
-  holder = first == least ? rank : PETSC_MPI_INT_MAX;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &holder, 1, MPI_INT, MPI_MIN, q->comm));
-  if (rank == holder) {
+  PetscCall(PgFindHolder(q->comm, worst, q->owned ? id[at] : -1, 0, &holder));
+  if (q->owned) {
     const PetscReal values[5] = {(PetscReal)id[at], position[2 * at], position[2 * at + 1], PetscRealPart(r[at]),
                                  PetscRealPart(x[at]) + q->reference};
     PetscCall(PetscArraycpy(sent, values, 5));

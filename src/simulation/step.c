@@ -35,7 +35,7 @@ static PetscErrorCode MoveDiscs(PgSimulation sim)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgSimulationStep(PgSimulation sim)
+static PetscErrorCode Step(PgSimulation sim)
 {
   const PetscReal dt_f = sim->dt * (PetscReal)sim->fluid_every;
 
@@ -55,12 +55,39 @@ PetscErrorCode PgSimulationStep(PgSimulation sim)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgSimulationGuard(PgSimulation sim)
+static PetscErrorCode Guard(PgSimulation sim)
 {
   PetscFunctionBeginUser;
   PetscCall(PgDemGuard(sim->dem, sim->step * sim->fluid_every, sim->time));
   PetscCall(PgDemGuardTimeStep(sim->dem, sim->step * sim->fluid_every, sim->time, sim->dt));
   if (sim->pore) PetscCall(PgPoreGuard(sim->pore, sim->step * sim->fluid_every, sim->time));
+  PetscFunctionReturn(0);
+}
+
+/* Water that blows up throws the discs about, and lists, contacts or the solver may notice first: the water is asked
+   before they speak. */
+static PetscErrorCode WithCause(PgSimulation sim, PetscErrorCode (*act)(PgSimulation))
+{
+  PetscErrorCode err;
+
+  PetscFunctionBeginUser;
+  if (sim->pore) PetscCall(PgSetCause(PgPoreFindCause, sim->pore));
+  err = (*act)(sim);
+  PetscCall(PgSetCause(NULL, NULL));
+  PetscFunctionReturn(err);
+}
+
+PetscErrorCode PgSimulationStep(PgSimulation sim)
+{
+  PetscFunctionBeginUser;
+  PetscCall(WithCause(sim, Step));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSimulationGuard(PgSimulation sim)
+{
+  PetscFunctionBeginUser;
+  PetscCall(WithCause(sim, Guard));
   PetscFunctionReturn(0);
 }
 

@@ -84,6 +84,25 @@ for pressure in explicit implicit; do
     "natural-$pressure.log"
 done
 
+# ---- water that blows up throws discs about, which pair lists or contacts may notice first: it is named all the same ----
+disc='disc [0-9]+ at \([-0-9.e]+, [-0-9.e]+\) m'
+start noticed-lists 3 -options_file "$options/panel_case2_ns_literal.opts" -pressure explicit
+start noticed-staggered 3 -options_file "$options/panel_case1_ns.opts" -coupling_scheme staggered
+finish noticed-lists noticed-staggered
+# The bound is low enough for a disc that the water throws, and 16 times the speed of the plate, 0.0618 m/s.
+start noticed-contacts 3 -options_file "$options/panel_case2_ns_literal.opts" -dem_guard_speed 1 -guard_every 1
+# The water is sound here: it is not blamed.
+start sound 3 -options_file "$options/panel_case1_ns.opts" -dem_guard_speed 0.065 -guard_every 50
+finish noticed-contacts sound
+use='sides of kind natural are unstable with the Navier-Stokes scheme: use drained, impermeable or flux'
+expect_match "error: the water has blown up: $disc has pressure .*; $use. It shows as: particle .* more than their skin" \
+  noticed-lists.log
+expect_match "error: the water has blown up: $disc has .*; -coupling_scheme staggered is unstable .*: use projection. It shows" \
+  noticed-staggered.log
+expect_match "error: the water may be behind it: $disc has .*; $use. It shows as: step .* is above -dem_guard_speed 1$" \
+  noticed-contacts.log
+expect_match "error: step [0-9]+, time .* is above -dem_guard_speed 0.065$" sound.log
+
 # ---- all sides impermeable: nothing holds the level of the pressure but the implicit solve ----
 impermeable="-bc_left impermeable -bc_right impermeable -bc_bottom impermeable -bc_top impermeable"
 # shellcheck disable=SC2086
