@@ -167,6 +167,11 @@ PETSC_EXTERN void PgExactSumAdd(PgExactSum *sum, PetscReal x);
 /* Adds up `count` sums over the ranks of comm (they are used up) and rounds them to value. Collective. */
 PETSC_EXTERN PetscErrorCode PgExactSumReduce(MPI_Comm comm, PetscInt count, PgExactSum sum[], PetscReal value[]);
 
+/* ---- numbers by chance ---- */
+
+/* Uniform in [-1, 1]: a function of the arguments alone, hence the same for any number of ranks. */
+PETSC_EXTERN PetscReal PgNoise(PetscInt id, PetscInt component);
+
 /* ---- state: what a run must remember beside the fields of its discs ---- */
 
 /* A list of named values, the same on all ranks, each at an address where it is read when the state is saved

@@ -1,5 +1,6 @@
 /* cases: set-up of one problem each: discs, plates, sides, initial porosity, end of the run. A case is
-   registered by name; adding one is one file and one line in the table of cases.c. */
+   registered by name; adding one is one file and one line in the table of cases.c. A case without time (operators on
+   packings that are refined) does all of its work itself. */
 #pragma once
 
 #include <porograin/dem.h>
@@ -26,9 +27,14 @@ typedef struct {
   const char *name, *summary;
   /* Reads the options of the case (before any disc exists). Collective. */
   PetscErrorCode (*create)(MPI_Comm comm, void **context);
-  /* Makes the discs (PgParticlesSetDiscs and all fields that describe them), plates and boundary kinds. Collective. */
+  /* Makes the discs (PgParticlesSetDiscs and all fields that describe them), plates and boundary kinds. NULL in a case
+     without time. Collective. */
   PetscErrorCode (*setup)(void *context, PgCaseSetup *setup);
   PetscErrorCode (*destroy)(void **context);
+  /* A case without time, NULL in others: reads the options of what it makes, refuses those that nobody has read,
+     prints its table and writes it beside `output` (FILE.h5 of -output; empty: nowhere). Fails when an order of
+     convergence is missed. Collective. */
+  PetscErrorCode (*run)(MPI_Comm comm, void *context, const char output[]);
 } PgCaseInfo;
 
 PETSC_EXTERN PetscErrorCode PgCaseFind(const char name[], const PgCaseInfo **info); /* NULL: unknown */
@@ -36,3 +42,48 @@ PETSC_EXTERN PetscErrorCode PgCaseGetNames(PetscInt *count, const char *const *n
 
 /* Sets mass from radius and density for all owned discs, and initial positions from positions. */
 PETSC_EXTERN PetscErrorCode PgCaseFinishDiscs(PgCaseSetup *setup);
+
+/* ---- manufactured solutions: the cases operator_mms and pressure_mms ---- */
+
+/* A hexagonal packing about as high as wide, rows of points - 1 and points discs in turn as in the panel; all discs
+   stand for the same area. */
+typedef struct {
+  PetscInt  points; /* discs in a longer row */
+  PetscReal jitter; /* largest displacement of a disc in each direction over the spacing [1] */
+  PetscInt  seed;   /* of the displacements */
+} PgMmsPacking;
+
+/* Relative L2 norms over the discs whose kernel is full, in a packing of width 1. `rest` is measured against k times the
+   exact derivatives, k being what the operator makes of linear and quadratic fields on the lattice. */
+typedef struct {
+  PetscInt  n, fallbacks;            /* discs; rows whose correction fell back to the plain form */
+  PetscReal h;                       /* smoothing length [1] */
+  PetscReal gradient, laplacian;     /* against the exact derivatives */
+  PetscReal gradient_k, laplacian_k; /* 1 for `corrected` */
+  PetscReal gradient_rest, laplacian_rest;
+} PgMmsOperatorErrors;
+/* Reads the options of the operators, -sph_*. `check` (by all ranks alike): options that nobody has read are refused.
+   Collective. */
+PETSC_EXTERN PetscErrorCode PgMmsOperators(MPI_Comm comm, const PgMmsPacking *packing, PetscBool check,
+                                           PgMmsOperatorErrors *errors);
+
+typedef enum { PG_MMS_DIRICHLET, PG_MMS_NATURAL } PgMmsSides;
+/* Relative to the L2 norm of q, the part of the exact pressure that is not linear (natural sides: that differs from its
+   mean), over the discs whose pressure is free. The pressure found is size times q, and the rest. */
+typedef struct {
+  PetscInt  n, iterations;
+  PetscReal h;       /* smoothing length, the square of free discs having width 1 [1] */
+  PetscReal error;   /* against the exact pressure */
+  PetscReal size;    /* of q in what was found, by least squares [1] */
+  PetscReal shape;   /* error against size times q */
+  PetscReal k;       /* as above, of the Laplacian */
+  PetscReal removed; /* part of a singular right-hand side that was taken away, relative */
+  PetscReal drift;   /* natural sides: change of the mean pressure, which is to be kept */
+  PetscReal residual;
+} PgMmsPressureErrors;
+/* Reads -sph_* and -pressure_*. Collective. */
+PETSC_EXTERN PetscErrorCode PgMmsPressure(MPI_Comm comm, const PgMmsPacking *packing, PgMmsSides sides, PetscBool check,
+                                          PgMmsPressureErrors *errors);
+/* The factor k of the paper's operators on the hexagonal lattice, h over radius and eta being given: the sum over the
+   neighbours of r w'/2, in the Laplacian times r^2/(r^2 + eta h^2); eta = 0 is the gradient's, too. Not collective. */
+PETSC_EXTERN PetscReal PgMmsLatticeFactor(const PgKernel *kernel, PetscReal smoothing, PetscReal eta);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <porograin/particles.h>
+#include <math.h>
 
 typedef struct PgOutput_s *PgOutput;
 
@@ -127,3 +128,38 @@ PETSC_EXTERN void PgPackingCsvStart(PgPackingCsv *csv);
    returns how many bytes it took. `last`: nothing comes after this text. After a refusal it takes nothing. */
 PETSC_EXTERN size_t PgPackingCsvParse(PgPackingCsv *csv, const char text[], size_t size, PetscBool last, PetscInt room,
                                       PetscReal disc[], PetscInt *discs);
+
+/* ---- tables: rows of named columns, on the screen, as CSV and as HDF5 ---- */
+
+typedef struct {
+  const char *name, *unit, *description; /* in files; unit NULL: text */
+  const char *head, *format; /* on the screen: heading and printf format of a double (text: NULL); head NULL:
+                                            in files only */
+  int         width;         /* on the screen */
+} PgTableColumn;
+
+/* Where tables go besides the screen. */
+typedef struct {
+  MPI_Comm    comm;
+  const char *option;                   /* that named the files, for messages */
+  char        base[PETSC_MAX_PATH_LEN]; /* empty: nowhere. BASE.csv, BASE-<table>.csv, BASE.h5 */
+  PetscBool   created;
+} PgTableFiles;
+typedef struct PgTable_s *PgTable;
+
+/* Tables beside each other in FILE.h5 and FILE.csv, `output` being FILE.h5 of option -output; empty: nowhere. Refuses a
+   name without .h5. Collective. */
+PETSC_EXTERN PetscErrorCode PgTableFilesFromOutput(MPI_Comm comm, const char output[], PgTableFiles *files);
+/* The table named "study" has the CSV file BASE.csv and the HDF5 group /study. `column` is borrowed. Rows are written
+   one by one, so that a program that is stopped leaves those it has done. Collective. */
+PETSC_EXTERN PetscErrorCode PgTableCreate(PgTableFiles *files, const char name[], PetscInt columns,
+                                          const PgTableColumn column[], PgTable *table);
+enum { PG_TABLE_TEXT = 192 }; /* longest text of a cell, with its end mark */
+/* Fill a cell of the row that comes next; those not filled are empty. Not collective. */
+PETSC_EXTERN void PgTableReal(PgTable table, PetscInt column, PetscReal value);
+PETSC_EXTERN void PgTableText(PgTable table, PetscInt column, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
+#define PG_TABLE_EMPTY ((PetscReal)NAN)
+/* Ends the row; `history` (n values, may be none) goes to /<name>/<row>/history. Collective. */
+PETSC_EXTERN PetscErrorCode PgTableEndRow(PgTable table, PetscInt n, const PetscReal history[], const char unit[],
+                                          const char description[]);
+PETSC_EXTERN PetscErrorCode PgTableDestroy(PgTable *table);

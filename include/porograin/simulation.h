@@ -14,6 +14,9 @@ PETSC_EXTERN PetscErrorCode PgSimulationCreate(MPI_Comm comm, PgSimulation *simu
 PETSC_EXTERN PetscErrorCode PgSimulationSetFromOptions(PgSimulation simulation);
 /* Makes all options of all cases known, for help and for messages (PgProgram). Collective. */
 PETSC_EXTERN PetscErrorCode PgSimulationMentionOptions(MPI_Comm comm);
+/* Does the work of a case without time (see PgCaseInfo) in place of set-up, view and run; *done is false, and nothing
+   happened, when the case has steps. After PgSimulationSetFromOptions(). */
+PETSC_EXTERN PetscErrorCode PgSimulationRunCase(PgSimulation simulation, PetscBool *done);
 /* Makes the discs, lists and first geometry, chooses or checks the time step, sets up the solver, refuses
    unknown options, and only then opens the output. */
 PETSC_EXTERN PetscErrorCode PgSimulationSetUp(PgSimulation simulation);

@@ -40,6 +40,9 @@ PETSC_EXTERN PetscErrorCode PgSphDestroy(PgSph *sph);
 PETSC_EXTERN PetscErrorCode PgSphUpdate(PgSph sph);
 PETSC_EXTERN PetscErrorCode PgSphGetCoefficients(PgSph sph, PgSphCoefficients *coefficients);
 PETSC_EXTERN PetscErrorCode PgSphGetKernel(PgSph sph, const PgKernel **kernel, PetscReal *smoothing); /* h/r */
+/* Form of gradient and divergence, form of the Laplacian, and its eta; each may be NULL. */
+PETSC_EXTERN PetscErrorCode PgSphGetForms(PgSph sph, PgSphOperators *gradient, PgSphOperators *laplacian,
+                                          PetscReal *eta);
 /* Rows whose correction was ill-conditioned and fell back to the plain form, all ranks. Collective. */
 PETSC_EXTERN PetscErrorCode PgSphGetFallbacks(PgSph sph, PetscInt *gradients, PetscInt *laplacians);
 

@@ -24,7 +24,8 @@ static PetscErrorCode Run(int argc, char *argv[])
   PetscCall(PgSimulationCreate(PETSC_COMM_WORLD, &simulation));
   PetscCall(PgSimulationSetFromOptions(simulation));
   PetscCall(PetscOptionsHasHelp(NULL, &help)); /* -help petsc: the objects have printed theirs */
-  if (!help) {
+  if (!help) PetscCall(PgSimulationRunCase(simulation, &done));
+  if (!help && !done) {
     PetscCall(PgSimulationSetUp(simulation));
     PetscCall(PgSimulationView(simulation, PETSC_VIEWER_STDOUT_WORLD));
     PetscCall(PgSimulationRun(simulation));

@@ -22,5 +22,6 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseBedDarcy = {"bed_darcy", "fixed bed under a pressure difference, Darcy's law: linear pressure",
-                                   Create, PgBedSetup, PgBedDestroy};
+const PgCaseInfo PgCaseBedDarcy = {"bed_darcy",  "fixed bed under a pressure difference, Darcy's law: linear pressure",
+                                   Create,       PgBedSetup,
+                                   PgBedDestroy, NULL};

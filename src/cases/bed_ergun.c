@@ -20,5 +20,6 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseBedErgun = {"bed_ergun", "fixed bed under a pressure difference, Navier-Stokes: Ergun's law",
-                                   Create, PgBedSetup, PgBedDestroy};
+const PgCaseInfo PgCaseBedErgun = {"bed_ergun",  "fixed bed under a pressure difference, Navier-Stokes: Ergun's law",
+                                   Create,       PgBedSetup,
+                                   PgBedDestroy, NULL};

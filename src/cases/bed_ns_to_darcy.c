@@ -21,5 +21,8 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
 }
 
 const PgCaseInfo PgCaseBedNsToDarcy = {"bed_ns_to_darcy",
-                                       "fixed bed, water set in motion: Navier-Stokes relaxes to Darcy's law", Create,
-                                       PgBedSetup, PgBedDestroy};
+                                       "fixed bed, water set in motion: Navier-Stokes relaxes to Darcy's law",
+                                       Create,
+                                       PgBedSetup,
+                                       PgBedDestroy,
+                                       NULL};

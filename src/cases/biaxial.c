@@ -109,5 +109,6 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseBiaxial = {"biaxial", "a hexagonal lattice compressed under servo-controlled confinement",
-                                  Create, Setup, PgCaseDestroyContext};
+const PgCaseInfo PgCaseBiaxial = {
+    "biaxial", "a hexagonal lattice compressed under servo-controlled confinement", Create, Setup, PgCaseDestroyContext,
+    NULL};

@@ -5,7 +5,7 @@ static const PgCaseInfo *const cases[] = {
     &PgCasePanel,          &PgCasePacking,           &PgCaseBedDarcy,       &PgCaseBedErgun,
     &PgCaseBedNsToDarcy,   &PgCaseColumnHydrostatic, &PgCaseColumnTerzaghi, &PgCaseColumnSeepage,
     &PgCaseUndrained,      &PgCaseDiscCollision,     &PgCaseDiscOnPlane,    &PgCaseDiscOnIncline,
-    &PgCaseLatticeModulus, &PgCaseBiaxial,
+    &PgCaseLatticeModulus, &PgCaseBiaxial,           &PgCaseOperatorMms,    &PgCasePressureMms,
 };
 enum { CASES = sizeof cases / sizeof *cases };
 static const char *names[CASES];

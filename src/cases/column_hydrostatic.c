@@ -21,5 +21,9 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseColumnHydrostatic = {"column_hydrostatic", "saturated column settling to rest under gravity",
-                                            Create, PgColumnSetup, PgColumnDestroy};
+const PgCaseInfo PgCaseColumnHydrostatic = {"column_hydrostatic",
+                                            "saturated column settling to rest under gravity",
+                                            Create,
+                                            PgColumnSetup,
+                                            PgColumnDestroy,
+                                            NULL};

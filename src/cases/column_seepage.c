@@ -21,5 +21,6 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseColumnSeepage = {"column_seepage", "upward seepage through a column: critical gradient", Create,
-                                        PgColumnSetup, PgColumnDestroy};
+const PgCaseInfo PgCaseColumnSeepage = {"column_seepage", "upward seepage through a column: critical gradient",
+                                        Create,           PgColumnSetup,
+                                        PgColumnDestroy,  NULL};

@@ -24,5 +24,9 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseColumnTerzaghi = {"column_terzaghi", "one-dimensional consolidation under a load on the top row",
-                                         Create, PgColumnSetup, PgColumnDestroy};
+const PgCaseInfo PgCaseColumnTerzaghi = {"column_terzaghi",
+                                         "one-dimensional consolidation under a load on the top row",
+                                         Create,
+                                         PgColumnSetup,
+                                         PgColumnDestroy,
+                                         NULL};

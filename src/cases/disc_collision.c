@@ -56,5 +56,9 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseDiscCollision = {"disc_collision", "two discs collide head on: duration, overlap, restitution",
-                                        Create, Setup, PgCaseDestroyContext};
+const PgCaseInfo PgCaseDiscCollision = {"disc_collision",
+                                        "two discs collide head on: duration, overlap, restitution",
+                                        Create,
+                                        Setup,
+                                        PgCaseDestroyContext,
+                                        NULL};

@@ -56,5 +56,5 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseDiscOnIncline = {"disc_on_incline", "a disc rolls, slips or rests on a slope", Create, Setup,
-                                        PgCaseDestroyContext};
+const PgCaseInfo PgCaseDiscOnIncline = {
+    "disc_on_incline", "a disc rolls, slips or rests on a slope", Create, Setup, PgCaseDestroyContext, NULL};

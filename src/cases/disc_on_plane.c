@@ -56,5 +56,5 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseDiscOnPlane = {"disc_on_plane", "a disc slides, then rolls on a rough floor", Create, Setup,
-                                      PgCaseDestroyContext};
+const PgCaseInfo PgCaseDiscOnPlane = {
+    "disc_on_plane", "a disc slides, then rolls on a rough floor", Create, Setup, PgCaseDestroyContext, NULL};

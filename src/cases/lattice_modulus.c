@@ -114,5 +114,9 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseLatticeModulus = {"lattice_modulus", "small strain of a hexagonal lattice between two plates",
-                                         Create, Setup, PgCaseDestroyContext};
+const PgCaseInfo PgCaseLatticeModulus = {"lattice_modulus",
+                                         "small strain of a hexagonal lattice between two plates",
+                                         Create,
+                                         Setup,
+                                         PgCaseDestroyContext,
+                                         NULL};

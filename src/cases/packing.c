@@ -464,5 +464,5 @@ static PetscErrorCode Destroy(void **context)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCasePacking = {"packing", "discs from a file, on a lattice, or pressed together at random", Create,
-                                  Setup, Destroy};
+const PgCaseInfo PgCasePacking = {
+    "packing", "discs from a file, on a lattice, or pressed together at random", Create, Setup, Destroy, NULL};

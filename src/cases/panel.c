@@ -115,6 +115,7 @@ static PetscErrorCode Destroy(void **context)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCasePanel = {"panel",
-                                "hexagonal packing compressed between two plates (Li, Chu & Sheng 2007, section 5)",
-                                Create, Setup, Destroy};
+const PgCaseInfo PgCasePanel = {
+    "panel", "hexagonal packing compressed between two plates (Li, Chu & Sheng 2007, section 5)",
+    Create,  Setup,
+    Destroy, NULL};

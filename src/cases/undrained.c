@@ -21,5 +21,7 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   PetscFunctionReturn(0);
 }
 
-const PgCaseInfo PgCaseUndrained = {"undrained", "loading too quick for water to leave: pressure rises by the stress",
-                                    Create, PgColumnSetup, PgColumnDestroy};
+const PgCaseInfo PgCaseUndrained = {
+    "undrained",     "loading too quick for water to leave: pressure rises by the stress",
+    Create,          PgColumnSetup,
+    PgColumnDestroy, NULL};

@@ -324,31 +324,43 @@ static PetscErrorCode Cost(PgPlot plot, const PgPlotSource *source)
 
 /* ---- operators, and solvers along a run ---- */
 
+/* Errors against the spacing, side by side those that the table has. */
 static PetscErrorCode Orders(PgPlot plot, const PgPlotSource *source)
 {
-  static const char *const by[2]     = {"operators", "packing"};
-  static const char *const column[4] = {"spacing", "gradient_error", "laplacian_error", "pressure_error"};
-  static const char *const title[4]  = {"", "gradient", "Laplacian", "solved pressure"};
+  enum { MOST = 4 };
+  static const char *const by[2]            = {"operators", "packing"};
+  static const char *const errors[MOST]     = {"gradient_error", "laplacian_error", "pressure_error", "shape_error"};
+  static const char *const titles[MOST]     = {"gradient", "Laplacian", "solved pressure", "its shape"};
+  const char              *column[1 + MOST] = {"spacing"}, *title[1 + MOST] = {""};
   Series                   s;
-  PetscInt                *drawn;
+  PetscInt                *drawn, count = 1;
   PgScript                 script;
   char                     name[256], y[64];
 
   PetscFunctionBeginUser;
+  for (int c = 0; c < MOST; c++) {
+    PgPlotText text;
+    PetscCall(PgPlotSourceColumn(source, "study", errors[c], text));
+    if (!text[0]) continue;
+    column[count]  = errors[c];
+    title[count++] = titles[c];
+  }
   PetscCall(SeriesCreate(source, "study", by, "", &s));
   PetscCall(PetscMalloc1(s.count, &drawn));
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-orders", source->stem));
-  PetscCall(WriteSeries(plot, source, "study", &s, name, 4, column, drawn));
+  PetscCall(WriteSeries(plot, source, "study", &s, name, count, column, drawn));
   if (Sum(s.count, drawn)) {
-    PetscCall(PgScriptBegin(plot, name, 1100.0, 520.0, PETSC_FALSE, &script));
+    PetscCall(PgScriptBegin(plot, name, count > 3 ? 1100.0 : 820.0, 520.0, PETSC_FALSE, &script));
     PetscCall(PgScriptPicture(&script));
-    (void)fprintf(script.file, "set multiplot layout 1,3 margins 0.07,0.98,0.33,0.93 spacing 0.07,0\n");
+    (void)fprintf(script.file, "set multiplot layout 1,%d margins 0.07,0.98,0.33,0.93 spacing 0.07,0\n",
+                  (int)count - 1);
     Style(script.file, "spacing", "", PETSC_TRUE, PETSC_TRUE);
     (void)fprintf(script.file, "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n");
-    for (int c = 1; c < 4; c++) {
+    for (PetscInt c = 1; c < count; c++) {
       (void)fprintf(script.file, "set title '%s'\nset ylabel '%s'\n%s\n", title[c], c == 1 ? "relative L2 error" : "",
-                    c == 2 ? "set key at screen 0.5,0.02 center bottom maxrows 3 noenhanced" : "unset key");
-      (void)snprintf(y, sizeof y, "$%d > 0 ? $%d : NaN", c + 1, c + 1);
+                    c == 2 && s.count > 1 ? "set key at screen 0.5,0.02 center bottom maxrows 3 noenhanced"
+                                          : "unset key");
+      (void)snprintf(y, sizeof y, "$%d > 0 ? $%d : NaN", (int)c + 1, (int)c + 1);
       Draw(script.file, &s, name, "$1", y, drawn, NULL);
     }
     (void)fprintf(script.file, "unset multiplot\n");
@@ -394,12 +406,13 @@ static PetscErrorCode Windows(PgPlot plot, const PgPlotSource *source, const cha
 PetscErrorCode PgPlotStudy(PgPlot plot, const PgPlotSource *source)
 {
   const PetscInt before = plot->folder.scripts.count;
-  PgPlotText     solver, sweeps, operators, window, variant;
+  PgPlotText     solver, sweeps, operators, pressure, window, variant;
 
   PetscFunctionBeginUser;
   PetscCall(PgPlotSourceColumn(source, "study", "solver", solver));
   PetscCall(PgPlotSourceColumn(source, "study", "error_relative", sweeps));
   PetscCall(PgPlotSourceColumn(source, "study", "gradient_error", operators));
+  PetscCall(PgPlotSourceColumn(source, "study", "pressure_error", pressure));
   PetscCall(PgPlotSourceColumn(source, "windows", "first_step", window));
   PetscCall(PgPlotSourceColumn(source, "cost", "variant", variant));
   if (window[0]) {
@@ -409,7 +422,7 @@ PetscErrorCode PgPlotStudy(PgPlot plot, const PgPlotSource *source)
     PetscCall(Growth(plot, source, "study"));
   }
   if (sweeps[0]) PetscCall(Sweeps(plot, source));
-  if (operators[0]) PetscCall(Orders(plot, source));
+  if (operators[0] || pressure[0]) PetscCall(Orders(plot, source));
   if (variant[0]) PetscCall(Cost(plot, source));
   if (plot->folder.scripts.count == before)
     PetscCall(PetscPrintf(plot->comm, "note: %s has nothing that porograin-plot can draw\n", source->file));

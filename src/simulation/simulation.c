@@ -90,12 +90,19 @@ static PetscErrorCode CaseOptions(PgSimulation sim, PetscOptionItems *PetscOptio
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode OutputOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
+static PetscErrorCode OutputFile(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
 {
   PetscFunctionBeginUser;
   PetscCall(PgOptionString(PetscOptionsObject, "-output",
                            "result file, FILE.h5; FILE.xmf and FILE.csv are written beside it", sim->output_file,
                            sizeof sim->output_file, NULL));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode OutputOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
+{
+  PetscFunctionBeginUser;
+  PetscCall(OutputFile(sim, PetscOptionsObject));
   PetscCall(PgOptionReal(PetscOptionsObject, "-output_every", "time between snapshots; default a tenth of the run", "s",
                          0.0, 1e9, &sim->output_time, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-history_every",
@@ -122,6 +129,12 @@ PetscErrorCode PgSimulationSetFromOptions(PgSimulation sim)
 {
   PetscFunctionBeginUser;
   PetscCall(ChooseCase(sim));
+  if (sim->case_info->run) { /* what else it reads it does when it runs */
+    PetscOptionsBegin(sim->comm, "", "output: results, checkpoints and restart", "");
+    PetscCall(OutputFile(sim, PetscOptionsObject));
+    PetscOptionsEnd();
+    PetscFunctionReturn(0);
+  }
   PetscOptionsBegin(sim->comm, "", "run: what is computed, time step and end", "");
   PetscCall(CaseOptions(sim, PetscOptionsObject));
   PetscCall(TimeOptions(sim, PetscOptionsObject));
@@ -280,6 +293,19 @@ static PetscErrorCode SetUpOutput(PgSimulation sim)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgSimulationRunCase(PgSimulation sim, PetscBool *done)
+{
+  PetscMPIInt size;
+
+  PetscFunctionBeginUser;
+  *done = (PetscBool)(sim->case_info->run != NULL);
+  if (!*done) PetscFunctionReturn(0);
+  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
+  PetscCall(PetscPrintf(sim->comm, "porograin %s: case %s on %d ranks\n", PG_VERSION, sim->case_info->name, (int)size));
+  PetscCall(sim->case_info->run(sim->comm, sim->case_context, sim->output_file));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgSimulationSetUp(PgSimulation sim)
 {
   const PetscReal asked_end  = sim->setup.end_time;
@@ -288,6 +314,8 @@ PetscErrorCode PgSimulationSetUp(PgSimulation sim)
   PetscInt        ids, start;
 
   PetscFunctionBeginUser;
+  PgInputCheck(sim->case_info->setup, sim->comm, "case %s has no steps in time: 'porograin -case %s' does all of it",
+               sim->case_info->name, sim->case_info->name);
   PetscCall(PgStagePush(PG_STAGE_SETUP));
   sim->setup.restart = (PetscBool)(sim->restart_file[0] != 0);
   PetscCall(sim->case_info->setup(sim->case_context, &sim->setup));

@@ -107,6 +107,15 @@ PetscErrorCode PgSphGetKernel(PgSph sph, const PgKernel **kernel, PetscReal *smo
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgSphGetForms(PgSph sph, PgSphOperators *gradient, PgSphOperators *laplacian, PetscReal *eta)
+{
+  PetscFunctionBeginUser;
+  if (gradient) *gradient = sph->gradient_kind;
+  if (laplacian) *laplacian = sph->laplacian_kind;
+  if (eta) *eta = sph->eta;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgSphGetFallbacks(PgSph sph, PetscInt *gradients, PetscInt *laplacians)
 {
   PetscInt count[2] = {sph->gradient_fallbacks, sph->laplacian_fallbacks};

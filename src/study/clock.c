@@ -1,6 +1,5 @@
-/* Clocks, medians, noise, and calls that may fail without ending the study. */
+/* Clocks, medians, and calls that may fail without ending the study. */
 #include "studyimpl.h"
-#include <stdint.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 
@@ -44,16 +43,6 @@ PetscReal PgMedian(PetscInt n, PetscReal value[])
   if (n < 1) return PG_TABLE_EMPTY;
   qsort(value, (size_t)n, sizeof *value, Compare);
   return n % 2 ? value[n / 2] : 0.5 * (value[n / 2 - 1] + value[n / 2]);
-}
-
-PetscReal PgNoise(PetscInt id, PetscInt component)
-{
-  uint64_t z = (uint64_t)id * 0x9E3779B97F4A7C15ull + ((uint64_t)component + 1) * 0xD1B54A32D192ED03ull;
-
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-  z ^= z >> 31;
-  return (PetscReal)(z >> 11) * (PetscReal)(2.0 / 9007199254740992.0) - 1.0;
 }
 
 /* Keeps the message of the innermost error instead of printing it. */

@@ -180,6 +180,9 @@ static PetscErrorCode MakePlan(PgStudy study, Plan *plan)
   PetscCall(PgOptionChoice(PetscOptionsObject, "-case", "problem to set up", count, names, &chosen, NULL));
   PetscOptionsEnd();
   PetscCall(PgCaseFind(names[chosen], &plan->info));
+  PgInputCheck(plan->info->setup, study->comm,
+               "case %s makes packings of its own, not one to study solvers on: 'porograin -case %s' runs it",
+               names[chosen], names[chosen]);
   plan->panel = (PetscBool)!strcmp(names[chosen], "panel");
   PetscCall(PetscOptionsHasName(NULL, NULL, "-panel_columns", &columns_set));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-panel_rows", &rows_set));

@@ -15,6 +15,7 @@ PetscErrorCode PgStudyCreate(MPI_Comm comm, PgStudy *study)
   PetscCall(PetscNew(&s));
   s->comm                 = comm;
   s->files.comm           = comm;
+  s->files.option         = "-study_output";
   s->sizes                = (PgIntList){3, {1249, 5000, 20000}};
   s->system.packing       = PG_STUDY_LATTICE;
   s->system.direct_limit  = 250000;

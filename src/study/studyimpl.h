@@ -3,58 +3,6 @@
 
 #include <porograin/study.h>
 #include <math.h>
-#include <stdio.h>
-
-/* ---- table.c, hdf.c: rows of named columns, on the screen, as CSV and as HDF5 ---- */
-
-typedef struct {
-  const char *name, *unit, *description; /* in files; unit NULL: text */
-  const char *head, *format; /* on the screen: heading and printf format of a double (text: NULL); head NULL:
-                                            in files only */
-  int         width;         /* on the screen */
-} PgTableColumn;
-
-enum { PG_TABLE_TEXT = 192 };
-typedef struct {
-  PetscReal value;               /* NaN: empty */
-  char      text[PG_TABLE_TEXT]; /* of a text column */
-} PgTableCell;
-
-/* Where the tables of a study go besides the screen. */
-typedef struct {
-  MPI_Comm  comm;
-  char      base[PETSC_MAX_PATH_LEN]; /* empty: nowhere. BASE.csv, BASE-<table>.csv, BASE.h5 */
-  PetscBool created;
-} PgTableFiles;
-
-typedef struct PgTable_s *PgTable;
-struct PgTable_s {
-  MPI_Comm             comm;
-  PgTableFiles        *files;
-  const char          *name; /* group in the HDF5 file */
-  PetscInt             columns, rows;
-  const PgTableColumn *column; /* not owned */
-  PgTableCell         *cell;   /* of the row being filled */
-  FILE                *csv;    /* rank 0 */
-};
-
-/* `first` is the table whose CSV file is BASE.csv and whose HDF5 group is /study. Rows are written one by one, so that
-   a study that is stopped leaves those it has done. All collective. */
-PETSC_INTERN PetscErrorCode PgTableCreate(PgTableFiles *files, const char name[], PetscInt columns,
-                                          const PgTableColumn column[], PgTable *table);
-PETSC_INTERN void           PgTableReal(PgTable table, PetscInt column, PetscReal value);
-PETSC_INTERN void PgTableText(PgTable table, PetscInt column, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
-/* Ends the row; `history` (n values, may be none) goes to /<name>/<row>/history. */
-PETSC_INTERN PetscErrorCode PgTableEndRow(PgTable table, PetscInt n, const PetscReal history[], const char unit[],
-                                          const char description[]);
-PETSC_INTERN PetscErrorCode PgTableDestroy(PgTable *table);
-#define PG_TABLE_EMPTY ((PetscReal)NAN)
-
-/* hdf.c: rank 0 alone; 0 or an error code whose message is in `trouble`. */
-PETSC_INTERN PetscErrorCode PgTableHdfCreate(const char file[], const char *options, PetscMPIInt ranks, char trouble[],
-                                             size_t length);
-PETSC_INTERN PetscErrorCode PgTableHdfRow(PgTable table, const char file[], PetscInt n, const PetscReal history[],
-                                          const char unit[], const char description[], char trouble[], size_t length);
 
 /* ---- override.c: options set for a while ---- */
 
@@ -135,8 +83,6 @@ PETSC_INTERN PetscErrorCode PgSystemBuild(PgSystem *system, const PgSystemChoice
 PETSC_INTERN PetscErrorCode PgSystemLoad(PgSystem *system, const char file[], const PgSystemChoices *choices);
 PETSC_INTERN PetscErrorCode PgSystemFinish(PgSystem *system, const PgSystemChoices *choices);
 PETSC_INTERN PetscErrorCode PgSystemDestroy(PgSystem **system);
-/* Uniform in [-1, 1], from id and component. */
-PETSC_INTERN PetscReal PgNoise(PetscInt id, PetscInt component);
 
 /* ---- solve.c: one solver on one system ---- */
 

@@ -1,5 +1,5 @@
-/* What the verification with manufactured solutions shares: packings that fill the unit square at several refinements, a
-   table of errors, and the judgement of a sequence of errors. */
+/* What the verification with manufactured solutions shares: packings that fill the unit square, a table of errors at
+   several refinements, and the judgement of a sequence of errors. */
 #pragma once
 
 #include "ground.h"
@@ -50,17 +50,17 @@ static inline void TableHead(MPI_Comm comm)
   CHECK(PetscPrintf(comm, "%-52s %7s %10s %11s %7s\n", "case", "N", "h", "error", "order"));
 }
 
-static inline void SequenceAdd(Sequence *s, Ground *g, PetscReal h, PetscReal error)
+static inline void SequenceAdd(Sequence *s, PetscInt count, PetscReal h, PetscReal error)
 {
   assert_true(s->count < 8);
   s->error[s->count] = error;
   s->h[s->count]     = h;
   s->count++;
   if (s->count == 1)
-    CHECK(PetscPrintf(g->comm, "%-52s %7" PetscInt_FMT " %10.3e %11.4e %7s\n", s->name, g->count, (double)h,
+    CHECK(PetscPrintf(PETSC_COMM_WORLD, "%-52s %7" PetscInt_FMT " %10.3e %11.4e %7s\n", s->name, count, (double)h,
                       (double)error, "-"));
   else
-    CHECK(PetscPrintf(g->comm, "%-52s %7" PetscInt_FMT " %10.3e %11.4e %7.2f\n", s->name, g->count, (double)h,
+    CHECK(PetscPrintf(PETSC_COMM_WORLD, "%-52s %7" PetscInt_FMT " %10.3e %11.4e %7.2f\n", s->name, count, (double)h,
                       (double)error, (double)SequenceOrder(s)));
 }
 
@@ -86,33 +86,4 @@ static inline void PlateauLine(const char what[], const char name[], PetscReal p
   (void)snprintf(found, sizeof found, "%.4g", (double)value);
   (void)snprintf(error, sizeof error, "%.1e", (double)PetscAbsReal(value / plateau - 1.0));
   VerifyLine(what, quantity, reference, found, error, "", tolerance, reason);
-}
-
-/* ---- p = sin(pi X) sin(pi Y) + linear, X and Y running from 0 to 1 in a box ---- */
-
-typedef struct {
-  PetscReal low[2], length[2];
-} Box;
-
-static inline PetscReal Hill(const Box *b, const PetscReal x[2])
-{
-  return PetscSinReal(PETSC_PI * (x[0] - b->low[0]) / b->length[0]) *
-         PetscSinReal(PETSC_PI * (x[1] - b->low[1]) / b->length[1]);
-}
-static inline PetscReal HillOnSlope(const Box *b, const PetscReal x[2])
-{
-  return Hill(b, x) + 0.7 * x[0] - 0.4 * x[1] + 0.2;
-}
-static inline void HillGradient(const Box *b, const PetscReal x[2], PetscReal grad[2])
-{
-  const PetscReal kx = PETSC_PI / b->length[0], ky = PETSC_PI / b->length[1];
-  const PetscReal X = kx * (x[0] - b->low[0]), Y = ky * (x[1] - b->low[1]);
-
-  grad[0] = kx * PetscCosReal(X) * PetscSinReal(Y) + 0.7;
-  grad[1] = ky * PetscSinReal(X) * PetscCosReal(Y) - 0.4;
-}
-static inline PetscReal HillLaplacian(const Box *b, const PetscReal x[2])
-{
-  const PetscReal kx = PETSC_PI / b->length[0], ky = PETSC_PI / b->length[1];
-  return -(kx * kx + ky * ky) * Hill(b, x);
 }

@@ -81,8 +81,8 @@ static void Step(const Case *c, PetscInt columns, PetscReal dt, Sequence *veloci
     for (int e = 0; e < 2; e++) error[0] = PetscMax(error[0], PetscAbsReal(u[2 * a + e] - exact[e]));
     error[1] = PetscMax(error[1], PetscAbsReal(p[a] - Head(c->smooth, from)));
   }
-  SequenceAdd(velocity, &g, dt, GroundMax(&g, error[0]));
-  SequenceAdd(pressure, &g, dt, GroundMax(&g, error[1]) / 1e4);
+  SequenceAdd(velocity, g.count, dt, GroundMax(&g, error[0]));
+  SequenceAdd(pressure, g.count, dt, GroundMax(&g, error[1]) / 1e4);
   GroundDestroy(&g);
 }
 

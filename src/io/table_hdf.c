@@ -1,16 +1,9 @@
-/* The HDF5 file of a study: /provenance, and for each table /<name>/<row> with the columns as attributes and the
+/* The HDF5 file of tables: /provenance, and for each table /<name>/<row> with the columns as attributes and the
    history as dataset. Small, and the same on all ranks, so rank 0 writes it alone. It is opened for each row, so that
-   a study that is stopped leaves a complete file. */
-#include "studyimpl.h"
-#include <hdf5.h>
+   a program that is stopped leaves a complete file. */
+#include "tableimpl.h"
 #include <math.h>
 #include <stdio.h>
-
-#if defined(PETSC_USE_REAL_SINGLE)
-  #define REAL_TYPE H5T_NATIVE_FLOAT
-#else
-  #define REAL_TYPE H5T_NATIVE_DOUBLE
-#endif
 
 /* HDF5 prints pages of its own about a full disk; the caller says it in one line. */
 static void Quiet(void) { (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL); }
@@ -61,8 +54,8 @@ static herr_t Provenance(hid_t file, const char *options, PetscMPIInt ranks)
   return status;
 }
 
-PetscErrorCode PgTableHdfCreate(const char file[], const char *options, PetscMPIInt ranks, char trouble[],
-                                size_t length)
+PetscErrorCode PgTableHdfCreate(const PgTableFiles *files, const char file[], const char *options, PetscMPIInt ranks,
+                                char trouble[], size_t length)
 {
   hid_t  id;
   herr_t status;
@@ -70,7 +63,7 @@ PetscErrorCode PgTableHdfCreate(const char file[], const char *options, PetscMPI
   Quiet();
   id = H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (id < 0) {
-    (void)snprintf(trouble, length, "option -study_output: cannot write %s", file);
+    (void)snprintf(trouble, length, "option %s: cannot write %s", files->option, file);
     return PETSC_ERR_FILE_OPEN;
   }
   status = Provenance(id, options, ranks);
@@ -85,8 +78,8 @@ static herr_t History(hid_t group, PetscInt n, const PetscReal history[], const 
 {
   const hsize_t size   = (hsize_t)n;
   const hid_t   space  = H5Screate_simple(1, &size, NULL);
-  const hid_t   set    = H5Dcreate2(group, "history", REAL_TYPE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  herr_t        status = set < 0 ? -1 : H5Dwrite(set, REAL_TYPE, H5S_ALL, H5S_ALL, H5P_DEFAULT, history);
+  const hid_t   set    = H5Dcreate2(group, "history", PG_HDF_REAL, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  herr_t        status = set < 0 ? -1 : H5Dwrite(set, PG_HDF_REAL, H5S_ALL, H5S_ALL, H5P_DEFAULT, history);
 
   if (status >= 0) status = Text(set, "unit", unit);
   if (status >= 0) status = Text(set, "description", description);
@@ -132,7 +125,7 @@ PetscErrorCode PgTableHdfRow(PgTable t, const char file[], PetscInt n, const Pet
       if (!t->column[c].unit)
         status = Text(row, t->column[c].name, t->cell[c].text);
       else if (!isnan(t->cell[c].value))
-        status = Attribute(row, t->column[c].name, REAL_TYPE, &t->cell[c].value);
+        status = Attribute(row, t->column[c].name, PG_HDF_REAL, &t->cell[c].value);
     }
     if (status >= 0 && n > 0) status = History(row, n, history, unit, description);
     (void)H5Gclose(row);

@@ -1,5 +1,5 @@
 /* Tables: a row goes to the screen, to the CSV file and to the HDF5 file when it is complete. */
-#include "studyimpl.h"
+#include "tableimpl.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -39,7 +39,7 @@ static PetscErrorCode CreateFiles(PgTableFiles *files)
   PetscCallMPI(MPI_Comm_rank(files->comm, &rank));
   PetscCallMPI(MPI_Comm_size(files->comm, &size));
   PetscCall(PetscOptionsGetAll(NULL, &options));
-  if (rank == 0) code = PgTableHdfCreate(name, options, size, trouble, sizeof trouble);
+  if (rank == 0) code = PgTableHdfCreate(files, name, options, size, trouble, sizeof trouble);
   PetscCall(PetscFree(options));
   PetscCall(Share(files->comm, code, trouble));
   PetscFunctionReturn(0);
@@ -61,7 +61,7 @@ static PetscErrorCode OpenCsv(PgTable t)
     t->csv = fopen(name, "w");
     if (!t->csv) {
       code = PETSC_ERR_FILE_OPEN;
-      PetscCall(PetscSNPrintf(trouble, sizeof trouble, "option -study_output: cannot write %s", name));
+      PetscCall(PetscSNPrintf(trouble, sizeof trouble, "option %s: cannot write %s", t->files->option, name));
     }
   }
   PetscCall(Share(t->comm, code, trouble));
@@ -72,6 +72,17 @@ static PetscErrorCode OpenCsv(PgTable t)
     if (k->unit) (void)fprintf(t->csv, " [%s]", k->unit);
   }
   (void)fprintf(t->csv, "\n");
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgTableFilesFromOutput(MPI_Comm comm, const char output[], PgTableFiles *files)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscMemzero(files, sizeof *files));
+  files->comm   = comm;
+  files->option = "-output";
+  if (output[0]) PetscCall(PgOutputCheckName(comm, output));
+  PetscCall(PetscStrncpy(files->base, output, sizeof files->base));
   PetscFunctionReturn(0);
 }
 
