@@ -114,6 +114,8 @@ PETSC_EXTERN PetscErrorCode PgDemCriticalTimeStep(PgDem dem, PetscReal *dt);
 PETSC_EXTERN PetscErrorCode PgDemKickDrift(PgDem dem, PetscReal dt);
 PETSC_EXTERN PetscErrorCode PgDemForces(PgDem dem, PetscReal dt);
 PETSC_EXTERN PetscErrorCode PgDemKick(PgDem dem, PetscReal dt);
+/* Forces and Kick with the same bits, in one pass through the discs where no energy accounts are kept. Collective. */
+PETSC_EXTERN PetscErrorCode PgDemForcesKick(PgDem dem, PetscReal dt);
 
 /* Contact history across a list build: Save before PgNeighborsBuild() puts it into the ragged data (so
    that it migrates, and checkpoints see it), Restore after it. Save leaves the records alone while none have

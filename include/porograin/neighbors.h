@@ -17,7 +17,7 @@ typedef struct {
   /* by owned disc: entries of disc i are sum[ptr[i]] .. sum[ptr[i+1]-1], in ascending id of the partner;
      an entry is 2*pair for low, 2*pair + 1 for high. */
   const PetscInt *ptr, *sum;
-  PetscInt        interior; /* pairs [0, interior) touch owned discs only */
+  PetscInt        interior; /* pairs [0, interior) touch owned discs only, in ascending order of the smaller index */
 } PgContactList;
 
 /* Rows of owned discs with all partners (the disc itself not included) whose distance at the time of the

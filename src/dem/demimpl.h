@@ -36,13 +36,13 @@ typedef struct {
 } PgWallContact;
 enum { PG_WALL_RECORD = 7 }; /* reals of one in "wall_history" */
 
-/* A contact law: of one pair, and of all pairs [0, list->padded) at once with the same bits. `lost` is the energy taken
+/* A contact law: of one pair, and of the pairs [first, end) of a list at once with the same bits. `lost` is the energy taken
    in the step by the caps of sliding, rolling and moment, and a part of it (negative) that is to be taken off what the
    dashpots get when they are credited with their force times the whole rate [J/m]; NULL: not wanted. The second loop
    fills it, the first does not. */
 enum { PG_LOST = 4 };
 typedef void PgContactLoop(const PgContactParameters *parameters, const PgContactList *list, const PgDemDiscs *discs,
-                           PetscReal dt, const PgDemPairs *pairs);
+                           PetscReal dt, const PgDemPairs *pairs, PetscInt first, PetscInt end);
 typedef struct {
   const char *name, *citation;
   PgContactForce (*pair)(const PgContactParameters *parameters, const PgContactMotion *motion, PetscReal dt,
@@ -215,6 +215,8 @@ PETSC_INTERN PetscErrorCode PgDemUpdatePlateDiscs_Private(PgDem dem);
 PETSC_INTERN PetscReal PgDemPlateFriction_Private(PgDem dem, const PgPlate *plate);
 /* Lists the discs near walls anew where that is needed, keeping what they remember. */
 PETSC_INTERN PetscErrorCode PgDemUpdateWallContacts_Private(PgDem dem);
+/* v += h F/m and w += h T/I of the owned discs [first, end). */
+PETSC_INTERN PetscErrorCode PgDemHalfKick_Private(PgDem dem, PetscReal h, PetscInt first, PetscInt end);
 /* Forces of all walls on their discs, histories advanced by dt. */
 PETSC_INTERN PetscErrorCode PgDemWallForces_Private(PgDem dem, const PgDemDiscs *discs, PetscReal dt);
 /* Velocities of servo walls from the forces on them. Collective. */

@@ -99,19 +99,19 @@ static inline __attribute__((always_inline)) void FreeDisc(PgDem dem, const Arra
   a->torque[i]        = s.torque;
 }
 
-static void FreeDiscs(PgDem dem, const Arrays *a, PetscInt owned)
+static void FreeDiscs(PgDem dem, const Arrays *a, PetscInt first, PetscInt end)
 {
   if (a->noted)
-    for (PetscInt i = 0; i < owned; i++) FreeDisc(dem, a, i, ContactSum(a, i), &a->noted[PG_ENERGY_FORCES * i]);
+    for (PetscInt i = first; i < end; i++) FreeDisc(dem, a, i, ContactSum(a, i), &a->noted[PG_ENERGY_FORCES * i]);
   else
-    for (PetscInt i = 0; i < owned; i++) FreeDisc(dem, a, i, ContactSum(a, i), NULL);
+    for (PetscInt i = first; i < end; i++) FreeDisc(dem, a, i, ContactSum(a, i), NULL);
 }
 
-/* Discs near walls, computed anew over what FreeDiscs() left. */
-static void WallDiscs(PgDem dem, const Arrays *a)
+/* Discs near walls, up to `end`, computed anew over what FreeDiscs() left. *next: the wall contact to begin with, and to go on with. */
+static void WallDiscs(PgDem dem, const Arrays *a, PetscInt end, PetscInt *next)
 {
-  for (PetscInt k = 0; k < dem->wall_contact_count; k++) {
-    const PetscInt i = dem->wall_contact[k].disc;
+  for (; *next < dem->wall_contact_count && dem->wall_contact[*next].disc < end; (*next)++) {
+    const PetscInt k = *next, i = dem->wall_contact[k].disc;
     Sum            contact;
 
     if (k > 0 && dem->wall_contact[k - 1].disc == i) continue;
@@ -185,29 +185,85 @@ static PetscErrorCode GetArrays(PgDem dem, Arrays *a)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgDemForces(PgDem dem, PetscReal dt)
+/* What has been done in a sweep over the discs. */
+typedef struct {
+  PetscInt disc, wall_contact, plate_disc; /* the next ones */
+} Done;
+
+/* Forces on the discs up to `end`, whose pairs are all known, and their half kick. */
+static PetscErrorCode Discs(PgDem dem, const Arrays *a, PetscReal dt, PetscReal kick, PetscInt end, Done *done)
 {
-  Arrays   a;
-  PetscInt owned;
+  PetscFunctionBeginUser;
+  FreeDiscs(dem, a, done->disc, end);
+  WallDiscs(dem, a, end, &done->wall_contact);
+  for (; done->plate_disc < dem->plate_disc_count && dem->plate_disc[done->plate_disc] < end; done->plate_disc++)
+    PlateDisc(dem, a, dem->plate_disc[done->plate_disc], dt);
+  if (kick != 0) PetscCall(PgDemHalfKick_Private(dem, kick, done->disc, end));
+  done->disc = end;
+  PetscFunctionReturn(0);
+}
+
+/* Springs and results of so many pairs, and their discs, stay in a second-level cache. */
+enum { STRETCH = 1024 };
+
+/* Goes through the pairs, and through the discs behind them: pairs of owned discs come in ascending order of the
+   smaller local index, so a disc is done with when a pair of two later ones is reached. What a pair has left is still
+   in the cache when it is summed, and so is a disc when it gets its kick. Pairs with ghosts, which come last in the
+   list, are computed first. No pair reads a disc after its kick. */
+static PetscErrorCode Sweep(PgDem dem, const Arrays *a, PetscReal dt, PetscReal kick)
+{
+  const PgContactList *list = &a->list;
+  PgContactLoop *const loop = dem->energy ? dem->law->loop_energy : dem->law->loop;
+  const PetscInt       last = list->interior - list->interior % 8;
+  Done                 done = {0, 0, 0};
+  PetscInt             owned;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
+  loop(&dem->parameters, list, &a->discs, dt, &dem->pairs, last, list->padded);
+  for (PetscInt first = 0; first < last; first += STRETCH) {
+    const PetscInt end = PetscMin(first + STRETCH, last);
+
+    loop(&dem->parameters, list, &a->discs, dt, &dem->pairs, first, end);
+    if (end < last) PetscCall(Discs(dem, a, dt, kick, PetscMin(list->low[end], list->high[end]), &done));
+  }
+  PetscCall(Discs(dem, a, dt, kick, owned, &done));
+  dem->pairs_computed = PETSC_TRUE;
+  PetscCall(PetscLogFlops(85.0 * list->count + 8.0 * owned));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Forces(PgDem dem, PetscReal dt, PetscReal kick)
+{
+  Arrays a;
 
   PetscFunctionBeginUser;
   PetscCall(GetArrays(dem, &a));
   if (dt == 0) dem->plate_discs_made = -1; /* the start of a run: the case may have assigned plates since */
   PetscCall(PgDemUpdatePlateDiscs_Private(dem));
-  PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
-  if (dem->energy)
-    dem->law->loop_energy(&dem->parameters, &a.list, &a.discs, dt, &dem->pairs);
-  else
-    dem->law->loop(&dem->parameters, &a.list, &a.discs, dt, &dem->pairs);
-  dem->pairs_computed = PETSC_TRUE;
-  FreeDiscs(dem, &a, owned);
-  if (dem->wall_count) {
-    PetscCall(PgDemWallForces_Private(dem, &a.discs, dt));
-    WallDiscs(dem, &a);
-  }
-  for (PetscInt k = 0; k < dem->plate_disc_count; k++) PlateDisc(dem, &a, dem->plate_disc[k], dt);
+  if (dem->wall_count) PetscCall(PgDemWallForces_Private(dem, &a.discs, dt));
+  PetscCall(Sweep(dem, &a, dt, kick));
   if (dem->energy) PetscCall(PgDemBookWork_Private(dem, 0.5 * dt, PETSC_TRUE)); /* walls still move as they did */
   if (dem->wall_count) PetscCall(PgDemServoWalls_Private(dem, dt));
-  PetscCall(PetscLogFlops(85.0 * a.list.count + 8.0 * owned));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgDemForces(PgDem dem, PetscReal dt)
+{
+  PetscFunctionBeginUser;
+  PetscCall(Forces(dem, dt, 0));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgDemForcesKick(PgDem dem, PetscReal dt)
+{
+  PetscFunctionBeginUser;
+  if (dem->energy) { /* the accounts look at the velocities before and after */
+    PetscCall(Forces(dem, dt, 0));
+    PetscCall(PgDemKick(dem, dt));
+  } else {
+    PetscCall(PgDemImposePlates_Private(dem));
+    PetscCall(Forces(dem, dt, 0.5 * dt));
+  }
   PetscFunctionReturn(0);
 }

@@ -54,7 +54,7 @@ static PetscErrorCode ComputePairs(PgDem dem, const PgContactList *list, const P
   PetscCall(PetscArraycpy(p.f_s, dem->pairs.f_s, n));
   PetscCall(PetscArraycpy(p.f_r, dem->pairs.f_r, n));
   PetscCall(PetscArraycpy(p.m_r, dem->pairs.m_r, n));
-  dem->law->loop(&dem->parameters, list, discs, 0, &p);
+  dem->law->loop(&dem->parameters, list, discs, 0, &p, 0, n);
   PetscCall(PetscFree3(p.f_s, p.f_r, p.m_r));
   PetscFunctionReturn(0);
 }

@@ -27,10 +27,7 @@ static PetscErrorCode MoveDiscs(PgSimulation sim)
   else
     PetscCall(PgParticlesHalo(sim->particles, 3, moving));
   PetscCall(PgStagePush(PG_STAGE_CONTACT));
-  PetscCall(PgDemForces(sim->dem, sim->dt));
-  PetscCall(PgStagePop());
-  PetscCall(PgStagePush(PG_STAGE_INTEGRATE));
-  PetscCall(PgDemKick(sim->dem, sim->dt));
+  PetscCall(PgDemForcesKick(sim->dem, sim->dt));
   PetscCall(PgStagePop());
   PetscFunctionReturn(0);
 }
