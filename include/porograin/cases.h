@@ -4,6 +4,7 @@
 #pragma once
 
 #include <porograin/dem.h>
+#include <porograin/fem.h>
 #include <porograin/pore.h>
 
 /* What a case gets and what it fills in. */
@@ -87,3 +88,18 @@ PETSC_EXTERN PetscErrorCode PgMmsPressure(MPI_Comm comm, const PgMmsPacking *pac
 /* The factor k of the paper's operators on the hexagonal lattice, h over radius and eta being given: the sum over the
    neighbours of r w'/2, in the Laplacian times r^2/(r^2 + eta h^2); eta = 0 is the gradient's, too. Not collective. */
 PETSC_EXTERN PetscReal PgMmsLatticeFactor(const PgKernel *kernel, PetscReal smoothing, PetscReal eta);
+
+/* ---- problems of the saturated continuum: up_terzaghi, up_mandel, up_footing ---- */
+
+typedef struct PgUp_s *PgUp;
+/* Reads the options of the problem and of its continuum (-up_*). Collective, as all that follow. */
+PETSC_EXTERN PetscErrorCode PgUpCreate(MPI_Comm comm, const char name[], PgUp *up);
+PETSC_EXTERN PetscErrorCode PgUpDestroy(PgUp *up);
+PETSC_EXTERN PetscErrorCode PgUpGetFem(PgUp up, PgFem *fem);
+PETSC_EXTERN PetscErrorCode PgUpSetUp(PgUp up);
+/* Default time step and end [s]; after SetUp. */
+PETSC_EXTERN PetscErrorCode PgUpGetTimes(PgUp up, PetscReal *dt, PetscReal *end);
+PETSC_EXTERN PetscErrorCode PgUpGetSettlement(PgUp up, PetscReal *settlement); /* [m], downward */
+PETSC_EXTERN PetscErrorCode PgUpGetProbe(PgUp up, PetscReal *pressure);        /* [Pa], where the case watches it */
+/* All of a run of the program: set-up, steps, results as -dt, -end_time, -output and their kin say. */
+PETSC_EXTERN PetscErrorCode PgUpRun(PgUp up);

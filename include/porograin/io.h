@@ -52,6 +52,31 @@ PETSC_EXTERN PetscErrorCode PgOutputFlush(PgOutput output);
 PETSC_EXTERN PetscErrorCode PgOutputFinish(PgOutput output);
 PETSC_EXTERN PetscErrorCode PgOutputDestroy(PgOutput *output);
 
+/* ---- results on a mesh of quadrilaterals, in the same kind of file ---- */
+
+/* The mesh, in the order of its numbers: this rank has nodes [node_start, node_start + node_count) and likewise cells. */
+typedef struct {
+  PetscInt         nodes, node_start, node_count;
+  PetscInt         cells, cell_start, cell_count;
+  const PetscReal *position; /* (node_count, 2) [m] */
+  const PetscInt  *corner;   /* (cell_count, 4) numbers of nodes, counter-clockwise */
+} PgGrid;
+/* Values of the nodes, or of the cells, of this rank in that order. */
+typedef struct {
+  const char      *name;
+  PetscBool        of_cells;
+  PetscInt         components; /* 1, 2 or 4 */
+  const char      *unit, *description;
+  const PetscReal *value;
+} PgGridField;
+/* As PgOutputCreate(), with /mesh/position and /mesh/cells in FILE.h5 and quadrilaterals in FILE.xmf. The arrays of
+   `grid` are borrowed until it returns. PgOutputHistory(), Flush, Finish and Destroy work as with discs. Collective. */
+PETSC_EXTERN PetscErrorCode PgOutputCreateGrid(MPI_Comm comm, const char file[], const PgGrid *grid, PetscInt columns,
+                                               const PgColumn column[], PgOutput *output);
+/* Adds /snapshots/NNNNNN with attribute time and these fields. Collective. */
+PETSC_EXTERN PetscErrorCode PgOutputGridSnapshot(PgOutput output, PetscReal time, PetscInt fields,
+                                                 const PgGridField field[]);
+
 /* Reads a dataset of a snapshot (any number of ranks; every rank gets all of it; for tests and plots).
    *value is allocated with PetscMalloc. Collective. */
 PETSC_EXTERN PetscErrorCode PgResultRead(MPI_Comm comm, const char file[], const char dataset[], PetscInt *rows,

@@ -294,7 +294,7 @@ PetscErrorCode PgOutputContinue(PgParticles particles, const char file[], PetscI
       PetscCall(PgOutputCreate(particles, file, columns, column, output));
     PetscFunctionReturn(0);
   }
-  PetscCall(PgOutputPrepare(particles, file, columns, column, output));
+  PetscCall(PgOutputPrepare(PgParticlesComm(particles), particles, file, columns, column, output));
   err = Continue(*output, run, rows, snapshots, from);
   if (err) PetscCall(PgOutputDestroy(output));
   PetscFunctionReturn(err);

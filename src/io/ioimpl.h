@@ -131,8 +131,12 @@ PETSC_INTERN PetscErrorCode PgTextDestroy(PgText *text);
 /* Rows of a piece of /history/<name> in the file, 4 KiB: little for a short run, few pieces for a long one. */
 #define PG_HISTORY_CHUNK 512
 
+/* A snapshot is written under this name and linked to its own when it is complete. */
+#define PG_SNAPSHOT_INCOMPLETE "/snapshots/.incomplete"
+
 struct PgOutput_s {
-  PgParticles particles; /* not owned */
+  PgParticles particles; /* not owned; NULL: on a mesh */
+  PgGrid      grid;      /* without its arrays; no nodes: of discs */
   MPI_Comm    comm;
   PetscMPIInt rank;
   char       *file, *xmf, *csv;
@@ -181,8 +185,15 @@ PETSC_INTERN const char *PgWhyNoRoomForNew(const char file[], off_t bytes);
 /* output.c: the parts of an output before anything is written */
 PETSC_INTERN PetscErrorCode PgOutputCreateAs(PgParticles particles, const char file[], PetscInt columns,
                                              const PgColumn column[], const char run[], PgOutput *output);
-PETSC_INTERN PetscErrorCode PgOutputPrepare(PgParticles particles, const char file[], PetscInt columns,
+PETSC_INTERN PetscErrorCode PgOutputPrepare(MPI_Comm comm, PgParticles particles, const char file[], PetscInt columns,
                                             const PgColumn column[], PgOutput *output);
+/* Creates the three files, before any snapshot; `grid` is NULL for discs. */
+PETSC_INTERN PetscErrorCode PgOutputWriteFirst(PgOutput output, const PgGrid *grid);
+PETSC_INTERN PetscErrorCode PgGridWriteMesh(PgOutput output, PgHdf *hdf, const PgGrid *grid);
+/* A snapshot between the opening and the closing of the file, when its data are in INCOMPLETE: history, name, count. */
+PETSC_INTERN PetscErrorCode PgSnapshotComplete(PgOutput output, PgHdf *hdf, const char group[]);
+/* Closes the file and counts the snapshot, or forgets what the index says of it, `before` having been its length. */
+PETSC_INTERN PetscErrorCode PgSnapshotClose(PgOutput output, PgHdf *hdf, size_t before);
 
 /* settled.c: for rank 0, looks for what has become settled in the closed file; NULL or why not */
 PETSC_INTERN const char *PgSettle(PgOutput output);
@@ -216,4 +227,6 @@ PETSC_INTERN PetscErrorCode PgXdmfBeginGrid(PgOutput output, const char group[],
 PETSC_INTERN PetscErrorCode PgXdmfAddField(PgOutput output, const char group[], const char name[], PetscInt components,
                                            PetscBool integer, PetscInt rows);
 PETSC_INTERN PetscErrorCode PgXdmfEndGrid(PgOutput output);
+PETSC_INTERN PetscErrorCode PgXdmfBeginMesh(PgOutput output, const char group[], PetscReal time);
+PETSC_INTERN PetscErrorCode PgXdmfAddGridField(PgOutput output, const char group[], const PgGridField *field);
 PETSC_INTERN PetscErrorCode PgXdmfWrite(PgOutput output); /* collective */

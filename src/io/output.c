@@ -1,9 +1,6 @@
 /* The result file: one group for each snapshot, complete and closed when a call returns. */
 #include "ioimpl.h"
 
-/* A snapshot is written under this name and linked to its own when it is complete. */
-#define INCOMPLETE "/snapshots/.incomplete"
-
 static PetscErrorCode AllocateNames(PgOutput output, const char file[])
 {
   const size_t stem = strlen(file) - strlen(".h5");
@@ -20,7 +17,7 @@ static PetscErrorCode AllocateNames(PgOutput output, const char file[])
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WriteFirst(PgOutput output)
+PetscErrorCode PgOutputWriteFirst(PgOutput output, const PgGrid *grid)
 {
   PgHdf hdf;
 
@@ -32,6 +29,7 @@ static PetscErrorCode WriteFirst(PgOutput output)
   PetscCall(PgHdfGroup(&hdf, "/snapshots"));
   PetscCall(PgHdfInt(&hdf, "/snapshots", "count", 0));
   PetscCall(PgHistoryCreateDatasets(output, &hdf));
+  if (grid) PetscCall(PgGridWriteMesh(output, &hdf, grid));
   PetscCall(PgHdfFlush(&hdf));
   PetscCall(PgOutputClose(output, &hdf));
   PetscCall(PgXdmfWrite(output));
@@ -39,10 +37,9 @@ static PetscErrorCode WriteFirst(PgOutput output)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgOutputPrepare(PgParticles particles, const char file[], PetscInt columns, const PgColumn column[],
-                               PgOutput *output)
+PetscErrorCode PgOutputPrepare(MPI_Comm comm, PgParticles particles, const char file[], PetscInt columns,
+                               const PgColumn column[], PgOutput *output)
 {
-  const MPI_Comm comm = PgParticlesComm(particles);
   PetscErrorCode err;
   PgOutput       out;
 
@@ -70,10 +67,10 @@ PetscErrorCode PgOutputCreateAs(PgParticles particles, const char file[], PetscI
   PetscErrorCode err;
 
   PetscFunctionBeginUser;
-  PetscCall(PgOutputPrepare(particles, file, columns, column, output));
+  PetscCall(PgOutputPrepare(PgParticlesComm(particles), particles, file, columns, column, output));
   PetscCall(PetscStrncpy((*output)->run, run, sizeof(*output)->run));
   err = PgOutputCheckRoom(*output, PgHistoryBytes(*output) + PG_PROVENANCE_BYTES);
-  if (!err) err = WriteFirst(*output);
+  if (!err) err = PgOutputWriteFirst(*output, NULL);
   if (err) PetscCall(PgOutputDestroy(output));
   PetscFunctionReturn(err);
 }
@@ -108,7 +105,7 @@ static PetscErrorCode WriteField(PgOutput output, Snapshot *s, const char name[]
              "field %s has %" PetscInt_FMT " components, not 1, 2 or 4", name, components);
   PetscCheck(name[0] && !strchr(name, '/') && strlen(name) < 200, output->comm, PETSC_ERR_ARG_WRONG,
              "'%s' cannot name a dataset", name);
-  (void)snprintf(path, sizeof path, "%s/%s", INCOMPLETE, name);
+  (void)snprintf(path, sizeof path, "%s/%s", PG_SNAPSHOT_INCOMPLETE, name);
   PetscCall(PgHdfDataset(s->hdf, path, type, rank, size, 0, unit, description));
   PetscCall(PgHdfWriteRows(s->hdf, path, type, s->rows, s->start, s->count, byid));
   if (output->rank == 0) PetscCall(PgXdmfAddField(output, s->group, name, components, integer, s->rows));
@@ -155,6 +152,34 @@ static PetscErrorCode WriteFields(PgOutput output, Snapshot *s)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgSnapshotComplete(PgOutput output, PgHdf *hdf, const char group[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgHistoryAppend(output, hdf));
+  /* The data are in the file before it says so. */
+  PetscCall(PgHdfFlush(hdf));
+  PetscCall(PgHdfMove(hdf, PG_SNAPSHOT_INCOMPLETE, group));
+  PetscCall(PgHdfInt(hdf, "/snapshots", "count", output->snapshots + 1));
+  PetscCall(PgHdfFlush(hdf));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgSnapshotClose(PgOutput output, PgHdf *hdf, size_t before)
+{
+  const PetscErrorCode err = PgOutputClose(output, hdf);
+
+  PetscFunctionBeginUser;
+  if (err && output->grids.string) { /* the index shall not name what is not there */
+    output->grids.used           = before;
+    output->grids.string[before] = 0;
+  }
+  PetscCall(err);
+  output->snapshots++;
+  PgHistoryAppendDone(output);
+  PetscCall(PgXdmfWrite(output));
+  PetscFunctionReturn(0);
+}
+
 /* Opens the file with room for the snapshot. */
 static PetscErrorCode OpenForSnapshot(PgOutput output, PetscInt extras, const PgExtraField extra[], PgHdf *hdf)
 {
@@ -187,10 +212,10 @@ static PetscErrorCode WriteSnapshot(PgOutput output, PgHdf *hdf, PetscReal time,
   PetscCall(PgParticlesGetSizes(output->particles, NULL, NULL, &s.rows));
   PetscCall(PgParticlesGetIdRange(output->particles, &s.start, &s.count));
   (void)snprintf(s.group, sizeof s.group, "/snapshots/%06lld", (long long)output->snapshots);
-  PetscCall(PgHdfRemoveIfThere(hdf, INCOMPLETE)); /* of an attempt that failed */
-  PetscCall(PgHdfGroup(hdf, INCOMPLETE));
-  PetscCall(PgHdfReal(hdf, INCOMPLETE, "time", time));
-  PetscCall(PgHdfText(hdf, INCOMPLETE, "time_unit", "s"));
+  PetscCall(PgHdfRemoveIfThere(hdf, PG_SNAPSHOT_INCOMPLETE)); /* of an attempt that failed */
+  PetscCall(PgHdfGroup(hdf, PG_SNAPSHOT_INCOMPLETE));
+  PetscCall(PgHdfReal(hdf, PG_SNAPSHOT_INCOMPLETE, "time", time));
+  PetscCall(PgHdfText(hdf, PG_SNAPSHOT_INCOMPLETE, "time_unit", "s"));
   if (output->rank == 0) PetscCall(PgXdmfBeginGrid(output, s.group, time, s.rows));
   PetscCall(WriteIds(output, &s));
   PetscCall(WriteFields(output, &s));
@@ -198,34 +223,20 @@ static PetscErrorCode WriteSnapshot(PgOutput output, PgHdf *hdf, PetscReal time,
     PetscCall(WriteField(output, &s, extra[k].name, extra[k].components, PETSC_FALSE, extra[k].unit,
                          extra[k].description, extra[k].byid));
   if (output->rank == 0) PetscCall(PgXdmfEndGrid(output));
-  PetscCall(PgHistoryAppend(output, hdf));
-  /* The data are in the file before it says so. */
-  PetscCall(PgHdfFlush(hdf));
-  PetscCall(PgHdfMove(hdf, INCOMPLETE, s.group));
-  PetscCall(PgHdfInt(hdf, "/snapshots", "count", output->snapshots + 1));
-  PetscCall(PgHdfFlush(hdf));
+  PetscCall(PgSnapshotComplete(output, hdf, s.group));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgOutputSnapshot(PgOutput output, PetscReal time, PetscInt extras, const PgExtraField extra[])
 {
-  const size_t   before = output->grids.used;
-  PgHdf          hdf;
-  PetscErrorCode err;
+  const size_t before = output->grids.used;
+  PgHdf        hdf;
 
   PetscFunctionBeginUser;
   PetscCheck(!output->finished, output->comm, PETSC_ERR_ORDER, "the output is finished");
   PetscCall(OpenForSnapshot(output, extras, extra, &hdf));
   PetscCall(WriteSnapshot(output, &hdf, time, extras, extra));
-  err = PgOutputClose(output, &hdf);
-  if (err && output->grids.string) { /* the index shall not name what is not there */
-    output->grids.used           = before;
-    output->grids.string[before] = 0;
-  }
-  PetscCall(err);
-  output->snapshots++;
-  PgHistoryAppendDone(output);
-  PetscCall(PgXdmfWrite(output));
+  PetscCall(PgSnapshotClose(output, &hdf, before));
   PetscFunctionReturn(0);
 }
 

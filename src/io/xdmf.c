@@ -60,6 +60,38 @@ PetscErrorCode PgXdmfAddField(PgOutput output, const char group[], const char na
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgXdmfBeginMesh(PgOutput output, const char group[], PetscReal time)
+{
+  PgText *text = &output->grids;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgTextPrint(text, "      <Grid Name=\"%s\" GridType=\"Uniform\">\n        <Time Value=\"",
+                        strrchr(group, '/') + 1));
+  PetscCall(PgTextReal(text, time));
+  PetscCall(PgTextPrint(text, "\"/>\n        <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"%lld\">\n",
+                        (long long)output->grid.cells));
+  PetscCall(AddDataItem(output, "/mesh", "cells", 4, PETSC_TRUE, output->grid.cells));
+  PetscCall(PgTextAppend(text, "        </Topology>\n        <Geometry GeometryType=\"XY\">\n"));
+  PetscCall(AddDataItem(output, "/mesh", "position", 2, PETSC_FALSE, output->grid.nodes));
+  PetscCall(PgTextAppend(text, "        </Geometry>\n"));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgXdmfAddGridField(PgOutput output, const char group[], const PgGridField *field)
+{
+  PgText     *text = &output->grids;
+  const char *type = field->components == 1 ? "Scalar" : field->components == 2 ? "Vector" : "Matrix";
+
+  PetscFunctionBeginUser;
+  PetscCall(PgTextAppend(text, "        <Attribute Name=\""));
+  PetscCall(PgTextAppendXml(text, field->name));
+  PetscCall(PgTextPrint(text, "\" AttributeType=\"%s\" Center=\"%s\">\n", type, field->of_cells ? "Cell" : "Node"));
+  PetscCall(AddDataItem(output, group, field->name, field->components, PETSC_FALSE,
+                        field->of_cells ? output->grid.cells : output->grid.nodes));
+  PetscCall(PgTextAppend(text, "        </Attribute>\n"));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgXdmfEndGrid(PgOutput output)
 {
   PetscFunctionBeginUser;
@@ -76,11 +108,12 @@ static const char *Replace(PgOutput output, const char temporary[])
 
   if (!stream) return strerror(errno);
   errno = 0;
-  bad   = fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                  "<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
-                  "<Xdmf Version=\"2.0\">\n  <Domain>\n"
-                  "    <Grid Name=\"discs\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
-                stream) == EOF;
+  bad   = fprintf(stream,
+                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                    "<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
+                    "<Xdmf Version=\"2.0\">\n  <Domain>\n"
+                    "    <Grid Name=\"%s\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+                output->particles ? "discs" : "continuum") < 0;
   bad |= output->grids.used && fputs(output->grids.string, stream) == EOF;
   bad |= fputs("    </Grid>\n  </Domain>\n</Xdmf>\n", stream) == EOF;
   bad |= fflush(stream) == EOF;

@@ -1,0 +1,328 @@
+/* Problems of the saturated continuum: what they share, and their run. */
+#include "up.h"
+#include <string.h>
+
+static const PgUpProblem *const problems[] = {&PgUpTerzaghi, &PgUpMandel, &PgUpFooting};
+enum { PROBLEMS = sizeof problems / sizeof *problems };
+
+static PetscErrorCode ReadOptions(PgUp up)
+{
+  char title[128];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscSNPrintf(title, sizeof title, "case %s", up->problem->name));
+  PetscOptionsBegin(up->comm, "", title, "");
+  PetscCall(up->problem->create(up, PetscOptionsObject));
+  PetscOptionsEnd();
+  {
+    const PetscInt  cells[2] = {10, 10};
+    const PetscReal low[2]   = {0.0, 0.0};
+    PetscCall(PgFemSetBox(up->fem, cells, low, up->size));
+  }
+  PetscCall(PgFemSetFromOptions(up->fem));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgUpCreateProblem(MPI_Comm comm, const PgUpProblem *problem, PgUp *out)
+{
+  PgUp up;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgCaseDefaults(problem->defaults));
+  PetscCall(PetscNew(&up));
+  up->comm    = comm;
+  up->problem = problem;
+  up->size[0] = problem->size[0];
+  up->size[1] = problem->size[1];
+  up->load    = problem->load;
+  up->width   = problem->width;
+  *out        = up;
+  PetscCall(PgFemCreate(comm, &up->fem));
+  PetscCall(ReadOptions(up));
+  PetscCall(problem->conditions(up));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgUpCreate(MPI_Comm comm, const char name[], PgUp *up)
+{
+  PetscFunctionBeginUser;
+  for (int k = 0; k < PROBLEMS; k++)
+    if (strcmp(problems[k]->name, name) == 0) {
+      PetscCall(PgUpCreateProblem(comm, problems[k], up));
+      PetscFunctionReturn(0);
+    }
+  SETERRQ(comm, PETSC_ERR_ARG_UNKNOWN_TYPE, "there is no problem %s of the continuum", name);
+}
+
+PetscErrorCode PgUpDestroy(PgUp *up)
+{
+  PetscFunctionBeginUser;
+  if (!*up) PetscFunctionReturn(0);
+  PetscCall(PgFemDestroy(&(*up)->fem));
+  PetscCall(PetscFree(*up));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgUpSetUp(PgUp up)
+{
+  PgFemNodes nodes;
+  PetscReal  mine[4] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL}, all[4];
+
+  PetscFunctionBeginUser;
+  PetscCall(PgFemSetUp(up->fem));
+  PetscCall(PgFemGetNodes(up->fem, &nodes));
+  for (PetscInt i = 0; i < nodes.count; i++)
+    for (int d = 0; d < 2; d++) {
+      mine[d]     = PetscMin(mine[d], nodes.x[2 * i + d]);
+      mine[2 + d] = PetscMin(mine[2 + d], -nodes.x[2 * i + d]);
+    }
+  PetscCallMPI(MPI_Allreduce(mine, all, 4, MPIU_REAL, MPIU_MIN, up->comm));
+  for (int d = 0; d < 2; d++) {
+    up->low[d]  = all[d];
+    up->high[d] = -all[2 + d];
+  }
+  PetscCall(up->problem->prepare(up));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgUpGetFem(PgUp up, PgFem *fem)
+{
+  PetscFunctionBeginUser;
+  *fem = up->fem;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgUpGetTimes(PgUp up, PetscReal *dt, PetscReal *end)
+{
+  PetscFunctionBeginUser;
+  *dt  = up->dt;
+  *end = up->end;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgUpGetSettlement(PgUp up, PetscReal *settlement)
+{
+  PetscFunctionBeginUser;
+  PetscCall(up->problem->settlement(up, settlement));
+  PetscFunctionReturn(0);
+}
+
+/* The owned node nearest to x; of several the one with the smallest number, on any number of ranks. */
+static PetscErrorCode Nearest(PgUp up, const PetscReal x[2], const PgFemNodes *nodes, PetscInt *node, PetscMPIInt *rank)
+{
+  PetscReal   mine      = PETSC_MAX_REAL, all;
+  PetscInt    number[2] = {PETSC_MAX_INT, -1}, least;
+  PetscMPIInt me;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(up->comm, &me));
+  for (int pass = 0; pass < 2; pass++) {
+    for (PetscInt i = 0; i < nodes->count; i++) {
+      const PetscReal d = PetscSqr(nodes->x[2 * i] - x[0]) + PetscSqr(nodes->x[2 * i + 1] - x[1]);
+      if (!nodes->owned[i]) continue;
+      if (pass == 0) mine = PetscMin(mine, d);
+      if (pass == 1 && d <= all && nodes->number[i] < number[0]) {
+        number[0] = nodes->number[i];
+        number[1] = i;
+      }
+    }
+    if (pass == 0) PetscCallMPI(MPI_Allreduce(&mine, &all, 1, MPIU_REAL, MPIU_MIN, up->comm));
+  }
+  PetscCallMPI(MPI_Allreduce(&number[0], &least, 1, MPIU_INT, MPI_MIN, up->comm));
+  *node = number[0] == least ? number[1] : -1;
+  {
+    const PetscMPIInt candidate = *node >= 0 ? me : -1;
+    PetscCallMPI(MPI_Allreduce(&candidate, rank, 1, MPI_INT, MPI_MAX, up->comm));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Displacement and pressure of the node nearest to x. */
+static PetscErrorCode ValuesAt(PgUp up, const PetscReal x[2], PetscReal value[3])
+{
+  PgFemNodes  nodes;
+  PetscInt    node = -1;
+  PetscMPIInt rank;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgFemGetNodes(up->fem, &nodes));
+  PetscCall(Nearest(up, x, &nodes, &node, &rank));
+  if (node >= 0) {
+    value[0] = nodes.displacement[2 * node];
+    value[1] = nodes.displacement[2 * node + 1];
+    value[2] = nodes.pressure[node];
+  }
+  PetscCallMPI(MPI_Bcast(value, 3, MPIU_REAL, rank, up->comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgUpSettlementAt(PgUp up, const PetscReal x[2], PetscReal *settlement)
+{
+  PetscReal value[3];
+
+  PetscFunctionBeginUser;
+  PetscCall(ValuesAt(up, x, value));
+  *settlement = 0.0 - value[1];
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgUpGetProbe(PgUp up, PetscReal *pressure)
+{
+  PetscReal value[3];
+
+  PetscFunctionBeginUser;
+  PetscCall(ValuesAt(up, up->probe, value));
+  *pressure = value[2];
+  PetscFunctionReturn(0);
+}
+
+/* ---- the run ---- */
+
+enum { TIME, DISPLACEMENT, PROBE, MIN, MEAN, MAX, ITERATIONS, RESIDUAL, COLUMNS };
+static const PgColumn columns[COLUMNS] = {
+    {"time", "s", "time"},
+    {"displacement", "m", "settlement of the plate or of the loaded surface"},
+    {"pressure_probe", "Pa", "pore pressure at the place that the case watches"},
+    {"pressure_min", "Pa", "smallest pore pressure of a node"},
+    {"pressure_mean", "Pa", "mean pore pressure of the continuum"},
+    {"pressure_max", "Pa", "largest pore pressure of a node"},
+    {"pressure_iterations", "1", "iterations of the solver for displacement and pressure"},
+    {"pressure_residual", "1", "residual of the solve, recomputed, over its right-hand side"},
+};
+
+typedef struct {
+  char      file[PETSC_MAX_PATH_LEN];
+  PetscReal dt, end, every, history; /* [s], < 0: default */
+  PetscInt  steps;
+  PgOutput  output;
+} Run;
+
+static PetscErrorCode RunOptions(PgUp up, Run *run)
+{
+  PetscReal dt = 0.0, end = 0.0;
+
+  PetscFunctionBeginUser;
+  run->every = run->history = -1.0;
+  PetscOptionsBegin(up->comm, "", "run: what is computed, time step and end", "");
+  PetscCall(
+      PgOptionReal(PetscOptionsObject, "-dt", "time step; default: of the case", "s", PG_POSITIVE, 1e12, &dt, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-end_time", "end of the run; default: of the case", "s", 0.0, 1e15, &end,
+                         NULL));
+  PetscOptionsEnd();
+  PetscOptionsBegin(up->comm, "", "output: results, checkpoints and restart", "");
+  PetscCall(PgOptionString(PetscOptionsObject, "-output", "result file, FILE.h5", run->file, sizeof run->file, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-output_every", "time between snapshots; default a tenth of the run", "s",
+                         0.0, 1e15, &run->every, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-history_every", "time between history rows; default every step", "s",
+                         0.0, 1e15, &run->history, NULL));
+  PetscOptionsEnd();
+  run->dt  = dt;
+  run->end = end;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ChooseSteps(PgUp up, Run *run)
+{
+  PetscFunctionBeginUser;
+  if (run->dt <= 0.0) run->dt = up->dt;
+  if (run->end <= 0.0) run->end = up->end;
+  PgInputCheck(run->end / run->dt < 1e8, up->comm, "%g steps to t = %g s with -dt %g s are too many",
+               (double)(run->end / run->dt), (double)run->end, (double)run->dt);
+  run->steps = PetscMax(1, (PetscInt)PetscCeilReal(run->end / run->dt - 1e-9));
+  if (run->every < 0.0) run->every = run->dt * (PetscReal)PetscMax(1, run->steps / 10);
+  if (run->history < 0.0) run->history = run->dt;
+  PetscFunctionReturn(0);
+}
+
+static void Volume(void *context, const PgFemPoint *point, PetscReal value[])
+{
+  (void)context;
+  value[0] = point->pressure;
+  value[1] = 1.0;
+}
+
+static PetscErrorCode FillRow(PgUp up, PetscReal row[COLUMNS])
+{
+  PgFemNodes nodes;
+  PgFemStats stats;
+  PetscReal  mine[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, all[2], mean[2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PgFemGetNodes(up->fem, &nodes));
+  PetscCall(PgFemGetStats(up->fem, &stats));
+  for (PetscInt i = 0; i < nodes.count; i++) {
+    mine[0] = PetscMin(mine[0], nodes.pressure[i]);
+    mine[1] = PetscMin(mine[1], -nodes.pressure[i]);
+  }
+  PetscCallMPI(MPI_Allreduce(mine, all, 2, MPIU_REAL, MPIU_MIN, up->comm));
+  PetscCall(PgFemIntegrate(up->fem, 2, Volume, NULL, mean));
+  PetscCall(PgFemGetTime(up->fem, NULL, &row[TIME]));
+  PetscCall(PgUpGetSettlement(up, &row[DISPLACEMENT]));
+  PetscCall(PgUpGetProbe(up, &row[PROBE]));
+  row[MIN]        = all[0];
+  row[MAX]        = 0.0 - all[1];
+  row[MEAN]       = mean[0] / mean[1];
+  row[ITERATIONS] = (PetscReal)stats.iterations;
+  row[RESIDUAL]   = stats.residual;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Observe(PgUp up, Run *run, PetscInt step)
+{
+  const PetscBool last     = (PetscBool)(step == run->steps);
+  const PetscInt  every    = PetscMax(1, (PetscInt)(run->every / run->dt + 0.5));
+  const PetscInt  history  = PetscMax(1, (PetscInt)(run->history / run->dt + 0.5));
+  const PetscInt  progress = PetscMax(1, run->steps / 20);
+  const PetscBool row_due = (PetscBool)(last || step % history == 0), told = (PetscBool)(last || step % progress == 0);
+  PetscReal       row[COLUMNS];
+
+  PetscFunctionBeginUser;
+  if (!row_due && !told && step % every) PetscFunctionReturn(0);
+  PetscCall(FillRow(up, row));
+  if (told)
+    PetscCall(PetscPrintf(
+        up->comm, "t %.4e s  settlement %.6e m  p probe %.4e  min %.4e  mean %.4e  max %.4e Pa  iterations %d\n",
+        (double)row[TIME], (double)row[DISPLACEMENT], (double)row[PROBE], (double)row[MIN], (double)row[MEAN],
+        (double)row[MAX], (int)row[ITERATIONS]));
+  if (!run->output) PetscFunctionReturn(0);
+  PetscCall(PgStagePush(PG_STAGE_OUTPUT));
+  if (row_due) PetscCall(PgOutputHistory(run->output, row));
+  if (last || step % every == 0) PetscCall(PgFemSnapshot(up->fem, run->output));
+  PetscCall(PgStagePop());
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TimeLoop(PgUp up, Run *run)
+{
+  PetscFunctionBeginUser;
+  PetscCall(Observe(up, run, 0));
+  for (PetscInt step = 1; step <= run->steps; step++) {
+    PetscCall(PgFemStep(up->fem, run->dt));
+    PetscCall(Observe(up, run, step));
+  }
+  if (run->output) {
+    PetscCall(PgOutputFinish(run->output));
+    PetscCall(PetscPrintf(up->comm, "wrote %s\n", run->file));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgUpRun(PgUp up)
+{
+  Run            run = {.steps = 0};
+  PetscErrorCode err;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgStagePush(PG_STAGE_SETUP));
+  PetscCall(RunOptions(up, &run));
+  PetscCall(PgUpSetUp(up));
+  PetscCall(ChooseSteps(up, &run));
+  PetscCall(PgFemSetUpSolver(up->fem, run.dt));
+  PetscCall(PgOptionsCheckUnused(up->comm, PgFemProbeOptions, up->fem));
+  if (run.file[0]) PetscCall(PgFemCreateOutput(up->fem, run.file, COLUMNS, columns, &run.output));
+  PetscCall(PgStagePop());
+  PetscCall(PgFemView(up->fem, PETSC_VIEWER_STDOUT_(up->comm)));
+  err = TimeLoop(up, &run);
+  PetscCall(PgOutputDestroy(&run.output));
+  PetscFunctionReturn(err);
+}

@@ -1,0 +1,74 @@
+/* Exact solutions of consolidation: Terzaghi's column, Mandel's slab, and the undrained half plane under a strip. */
+#pragma once
+
+#include <porograin/fem.h>
+#include <math.h>
+
+/* p/q at depth z/H and T = c_v t/H^2; water and grains as good as incompressible. */
+static inline PetscReal TerzaghiPressure(PetscReal z, PetscReal T)
+{
+  PetscReal sum = 0.0;
+
+  for (int j = 0; j < 400; j++) {
+    const PetscReal m = 0.5 * PETSC_PI * (2.0 * j + 1.0);
+    sum += 2.0 / m * PetscSinReal(m * z) * PetscExpReal(-m * m * T);
+  }
+  return sum;
+}
+
+/* Settlement over its end q H/M. */
+static inline PetscReal TerzaghiSettlement(PetscReal T)
+{
+  PetscReal sum = 0.0;
+
+  for (int j = 0; j < 400; j++) {
+    const PetscReal m = 0.5 * PETSC_PI * (2.0 * j + 1.0);
+    sum += 2.0 / (m * m) * PetscExpReal(-m * m * T);
+  }
+  return 1.0 - sum;
+}
+
+/* Undrained Poisson's ratio and Skempton's B. */
+static inline void Undrained(const PgFemMaterial *m, PetscReal *nu_u, PetscReal *B)
+{
+  const PetscReal K = m->E / (3.0 * (1.0 - 2.0 * m->nu)), G = PgFemShearModulus(m), biot = 1.0 / PgFemStorage(m);
+  const PetscReal K_u = K + m->alpha * m->alpha * biot;
+
+  *B    = m->alpha * biot / K_u;
+  *nu_u = (3.0 * K_u - 2.0 * G) / (2.0 * (3.0 * K_u + G));
+}
+
+/* Root j of tan s = ratio s, in (j pi, (j + 1/2) pi), by bisection. */
+static inline PetscReal MandelRoot(int j, PetscReal ratio)
+{
+  PetscReal low = j * PETSC_PI + 1e-9, high = (j + 0.5) * PETSC_PI - 1e-12;
+
+  for (int k = 0; k < 200; k++) {
+    const PetscReal s = 0.5 * (low + high);
+    /* sin s - ratio s cos s has the sign of tan s - ratio s where cos s keeps its own */
+    const PetscReal f = (PetscSinReal(s) - ratio * s * PetscCosReal(s)) * (j % 2 ? -1.0 : 1.0);
+    if (f < 0.0)
+      low = s;
+    else
+      high = s;
+  }
+  return 0.5 * (low + high);
+}
+
+/* Pressure at x/a, and way of the plate over its distance from the middle; force F on half a plate, T = c t/a^2. */
+static inline void Mandel(const PgFemMaterial *m, PetscReal force, PetscReal a, PetscReal x, PetscReal T,
+                          PetscReal *pressure, PetscReal *plate)
+{
+  PetscReal       nu_u, B, sum = 0.0, way = 0.0;
+  const PetscReal G = PgFemShearModulus(m);
+
+  Undrained(m, &nu_u, &B);
+  for (int j = 0; j < 200; j++) {
+    const PetscReal s    = MandelRoot(j, (1.0 - m->nu) / (nu_u - m->nu));
+    const PetscReal sine = PetscSinReal(s), cosine = PetscCosReal(s), decay = PetscExpReal(-s * s * T);
+    sum += sine / (s - sine * cosine) * (PetscCosReal(s * x) - cosine) * decay;
+    way += sine * cosine / (s - sine * cosine) * decay;
+  }
+  *pressure = 2.0 * force * B * (1.0 + nu_u) / (3.0 * a) * sum;
+  *plate    = force / (G * a) * (-0.5 * (1.0 - m->nu) + (1.0 - nu_u) * way);
+}
