@@ -101,5 +101,5 @@ PETSC_EXTERN PetscErrorCode PgUpSetUp(PgUp up);
 PETSC_EXTERN PetscErrorCode PgUpGetTimes(PgUp up, PetscReal *dt, PetscReal *end);
 PETSC_EXTERN PetscErrorCode PgUpGetSettlement(PgUp up, PetscReal *settlement); /* [m], downward */
 PETSC_EXTERN PetscErrorCode PgUpGetProbe(PgUp up, PetscReal *pressure);        /* [Pa], where the case watches it */
-/* All of a run of the program: set-up, steps, results as -dt, -end_time, -output and their kin say. */
-PETSC_EXTERN PetscErrorCode PgUpRun(PgUp up);
+/* All of a run of the program: set-up, steps, results, as -dt, -end_time and their kin say; output: FILE.h5 or empty. */
+PETSC_EXTERN PetscErrorCode PgUpRun(PgUp up, const char output[]);

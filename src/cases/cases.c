@@ -6,6 +6,7 @@ static const PgCaseInfo *const cases[] = {
     &PgCaseBedNsToDarcy,   &PgCaseColumnHydrostatic, &PgCaseColumnTerzaghi, &PgCaseColumnSeepage,
     &PgCaseUndrained,      &PgCaseDiscCollision,     &PgCaseDiscOnPlane,    &PgCaseDiscOnIncline,
     &PgCaseLatticeModulus, &PgCaseBiaxial,           &PgCaseOperatorMms,    &PgCasePressureMms,
+    &PgCaseUpTerzaghi,     &PgCaseUpMandel,          &PgCaseUpFooting,
 };
 enum { CASES = sizeof cases / sizeof *cases };
 static const char *names[CASES];

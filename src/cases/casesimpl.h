@@ -7,7 +7,7 @@ PETSC_INTERN const PgCaseInfo PgCasePanel, PgCasePacking;
 PETSC_INTERN const PgCaseInfo PgCaseBedDarcy, PgCaseBedErgun, PgCaseBedNsToDarcy;
 PETSC_INTERN const PgCaseInfo PgCaseColumnHydrostatic, PgCaseColumnTerzaghi, PgCaseColumnSeepage, PgCaseUndrained;
 PETSC_INTERN const PgCaseInfo PgCaseDiscCollision, PgCaseDiscOnPlane, PgCaseDiscOnIncline, PgCaseLatticeModulus,
-    PgCaseBiaxial, PgCaseOperatorMms, PgCasePressureMms;
+    PgCaseBiaxial, PgCaseUpTerzaghi, PgCaseUpMandel, PgCaseUpFooting, PgCaseOperatorMms, PgCasePressureMms;
 
 /* Makes discs with ids [0, total), dealt out evenly: this rank gets `owned` of them from `first` on. Collective. */
 PETSC_INTERN PetscErrorCode PgCaseDealDiscs(PgCaseSetup *setup, PetscInt64 total, PetscInt *first, PetscInt *owned);

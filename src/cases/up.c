@@ -23,6 +23,27 @@ static PetscErrorCode ReadOptions(PgUp up)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode RunOptions(PgUp up)
+{
+  PgUpRunSettings *run = &up->run;
+
+  PetscFunctionBeginUser;
+  run->every = run->history = -1.0;
+  PetscOptionsBegin(up->comm, "", "run: what is computed, time step and end", "");
+  PetscCall(PgOptionReal(PetscOptionsObject, "-dt", "time step; default: of the case", "s", PG_POSITIVE, 1e12, &run->dt,
+                         NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-end_time", "end of the run; default: of the case", "s", PG_POSITIVE,
+                         1e15, &run->end, NULL));
+  PetscOptionsEnd();
+  PetscOptionsBegin(up->comm, "", "output: results, checkpoints and restart", "");
+  PetscCall(PgOptionReal(PetscOptionsObject, "-output_every", "time between snapshots; default a tenth of the run", "s",
+                         0.0, 1e15, &run->every, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-history_every", "time between history rows; default every step", "s",
+                         0.0, 1e15, &run->history, NULL));
+  PetscOptionsEnd();
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgUpCreateProblem(MPI_Comm comm, const PgUpProblem *problem, PgUp *out)
 {
   PgUp up;
@@ -39,6 +60,7 @@ PetscErrorCode PgUpCreateProblem(MPI_Comm comm, const PgUpProblem *problem, PgUp
   *out        = up;
   PetscCall(PgFemCreate(comm, &up->fem));
   PetscCall(ReadOptions(up));
+  PetscCall(RunOptions(up));
   PetscCall(problem->conditions(up));
   PetscFunctionReturn(0);
 }
@@ -190,38 +212,7 @@ static const PgColumn columns[COLUMNS] = {
     {"pressure_residual", "1", "residual of the solve, recomputed, over its right-hand side"},
 };
 
-typedef struct {
-  char      file[PETSC_MAX_PATH_LEN];
-  PetscReal dt, end, every, history; /* [s], < 0: default */
-  PetscInt  steps;
-  PgOutput  output;
-} Run;
-
-static PetscErrorCode RunOptions(PgUp up, Run *run)
-{
-  PetscReal dt = 0.0, end = 0.0;
-
-  PetscFunctionBeginUser;
-  run->every = run->history = -1.0;
-  PetscOptionsBegin(up->comm, "", "run: what is computed, time step and end", "");
-  PetscCall(
-      PgOptionReal(PetscOptionsObject, "-dt", "time step; default: of the case", "s", PG_POSITIVE, 1e12, &dt, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-end_time", "end of the run; default: of the case", "s", 0.0, 1e15, &end,
-                         NULL));
-  PetscOptionsEnd();
-  PetscOptionsBegin(up->comm, "", "output: results, checkpoints and restart", "");
-  PetscCall(PgOptionString(PetscOptionsObject, "-output", "result file, FILE.h5", run->file, sizeof run->file, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-output_every", "time between snapshots; default a tenth of the run", "s",
-                         0.0, 1e15, &run->every, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-history_every", "time between history rows; default every step", "s",
-                         0.0, 1e15, &run->history, NULL));
-  PetscOptionsEnd();
-  run->dt  = dt;
-  run->end = end;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ChooseSteps(PgUp up, Run *run)
+static PetscErrorCode ChooseSteps(PgUp up, PgUpRunSettings *run)
 {
   PetscFunctionBeginUser;
   if (run->dt <= 0.0) run->dt = up->dt;
@@ -267,7 +258,7 @@ static PetscErrorCode FillRow(PgUp up, PetscReal row[COLUMNS])
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Observe(PgUp up, Run *run, PetscInt step)
+static PetscErrorCode Observe(PgUp up, PgUpRunSettings *run, PetscInt step)
 {
   const PetscBool last     = (PetscBool)(step == run->steps);
   const PetscInt  every    = PetscMax(1, (PetscInt)(run->every / run->dt + 0.5));
@@ -292,7 +283,7 @@ static PetscErrorCode Observe(PgUp up, Run *run, PetscInt step)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TimeLoop(PgUp up, Run *run)
+static PetscErrorCode TimeLoop(PgUp up, PgUpRunSettings *run)
 {
   PetscFunctionBeginUser;
   PetscCall(Observe(up, run, 0));
@@ -302,27 +293,70 @@ static PetscErrorCode TimeLoop(PgUp up, Run *run)
   }
   if (run->output) {
     PetscCall(PgOutputFinish(run->output));
-    PetscCall(PetscPrintf(up->comm, "wrote %s\n", run->file));
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgUpRun(PgUp up)
+PetscErrorCode PgUpRun(PgUp up, const char output[])
 {
-  Run            run = {.steps = 0};
-  PetscErrorCode err;
+  PgUpRunSettings *run = &up->run;
+  PetscErrorCode   err;
 
   PetscFunctionBeginUser;
   PetscCall(PgStagePush(PG_STAGE_SETUP));
-  PetscCall(RunOptions(up, &run));
   PetscCall(PgUpSetUp(up));
-  PetscCall(ChooseSteps(up, &run));
-  PetscCall(PgFemSetUpSolver(up->fem, run.dt));
+  PetscCall(ChooseSteps(up, run));
+  PetscCall(PgFemSetUpSolver(up->fem, run->dt));
   PetscCall(PgOptionsCheckUnused(up->comm, PgFemProbeOptions, up->fem));
-  if (run.file[0]) PetscCall(PgFemCreateOutput(up->fem, run.file, COLUMNS, columns, &run.output));
+  if (output[0]) PetscCall(PgFemCreateOutput(up->fem, output, COLUMNS, columns, &run->output));
   PetscCall(PgStagePop());
   PetscCall(PgFemView(up->fem, PETSC_VIEWER_STDOUT_(up->comm)));
-  err = TimeLoop(up, &run);
-  PetscCall(PgOutputDestroy(&run.output));
+  err = TimeLoop(up, run);
+  if (!err && output[0]) PetscCall(PetscPrintf(up->comm, "wrote %s\n", output));
+  PetscCall(PgOutputDestroy(&run->output));
   PetscFunctionReturn(err);
 }
+
+/* ---- as cases ---- */
+
+static PetscErrorCode Destroy(void **context)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgUpDestroy((PgUp *)context));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
+{
+  PetscFunctionBeginUser;
+  (void)comm;
+  PetscCall(PgUpRun((PgUp)context, output));
+  PetscFunctionReturn(0);
+}
+
+#define PG_UP_CREATE(problem)                                                                                          \
+  static PetscErrorCode Create_##problem(MPI_Comm comm, void **context)                                                \
+  {                                                                                                                    \
+    PetscFunctionBeginUser;                                                                                            \
+    PetscCall(PgUpCreateProblem(comm, &problem, (PgUp *)context));                                                     \
+    PetscFunctionReturn(0);                                                                                            \
+  }
+PG_UP_CREATE(PgUpTerzaghi)
+PG_UP_CREATE(PgUpMandel)
+PG_UP_CREATE(PgUpFooting)
+
+const PgCaseInfo PgCaseUpTerzaghi = {.name    = "up_terzaghi",
+                                     .summary = "continuum: consolidation of a column",
+                                     .create  = Create_PgUpTerzaghi,
+                                     .destroy = Destroy,
+                                     .run     = RunCase};
+const PgCaseInfo PgCaseUpMandel   = {.name    = "up_mandel",
+                                     .summary = "continuum: a slab pressed between plates",
+                                     .create  = Create_PgUpMandel,
+                                     .destroy = Destroy,
+                                     .run     = RunCase};
+const PgCaseInfo PgCaseUpFooting  = {.name    = "up_footing",
+                                     .summary = "continuum: a strip footing on ground that cannot drain",
+                                     .create  = Create_PgUpFooting,
+                                     .destroy = Destroy,
+                                     .run     = RunCase};

@@ -5,6 +5,14 @@
 
 typedef struct PgUpProblem_s PgUpProblem;
 
+/* What -dt and its kin say. */
+typedef struct {
+  PetscReal dt, end;        /* [s], 0: of the problem */
+  PetscReal every, history; /* between snapshots, between rows [s], < 0: default */
+  PetscInt  steps;
+  PgOutput  output; /* NULL: none */
+} PgUpRunSettings;
+
 struct PgUp_s {
   MPI_Comm           comm;
   const PgUpProblem *problem;
@@ -15,7 +23,8 @@ struct PgUp_s {
   PetscReal          width;           /* of what is loaded [m] */
   PetscReal          dt, end;         /* [s] */
   PetscReal          probe[2];        /* where the pressure of the history is taken [m] */
-  PetscBool          drained;         /* up_footing: the surface lets water out */
+  PgUpRunSettings    run;
+  PetscBool          drained; /* up_footing: the surface lets water out */
 };
 
 struct PgUpProblem_s {
