@@ -81,6 +81,10 @@ PetscErrorCode PgParticlesHaloBegin(PgParticles particles, PetscInt count, const
   PetscFunctionBeginUser;
   if (!particles->any_ghosts || components == 0) PetscFunctionReturn(0);
   PetscCheck(particles->halo_active == 0, PETSC_COMM_SELF, PETSC_ERR_ORDER, "a halo exchange is under way already");
+  for (PetscInt f = 0; f < count; f++) {
+    PetscReal *array;
+    PetscCall(PgParticlesGetArray(particles, fields[f], &array)); /* makes one that nobody has asked for */
+  }
   PetscCall(PgStagePush(PG_STAGE_HALO));
   PetscCall(
       ReserveBuffer((size_t)(particles->nroots * components), &particles->root_buffer_size, &particles->root_buffer));

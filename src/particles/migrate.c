@@ -186,7 +186,9 @@ static PetscErrorCode Gather(PgParticles particles, PetscInt n, const PgSortEntr
   PetscReal *scratch;
 
   PetscFunctionBeginUser;
-  for (PgField f = 0; f < particles->nfields; f++) widest = PetscMax(widest, particles->field[f]->info.components);
+  for (PgField f = 0; f < particles->nfields; f++)
+    if (particles->field[f]->info.flags & PG_FIELD_MIGRATE)
+      widest = PetscMax(widest, particles->field[f]->info.components);
   PetscCall(PetscMalloc1((size_t)n * (size_t)widest, &scratch));
   for (PgField f = 0; f < particles->nfields; f++) {
     const PetscInt c     = particles->field[f]->info.components;

@@ -125,9 +125,11 @@ PetscErrorCode PgParticlesSetDiscs(PgParticles particles, PetscInt owned, const 
   particles->owned  = owned;
   particles->global = global;
   PetscCall(PetscArraycpy(particles->id, id, owned));
-  for (PgField f = 0; f < particles->nfields; f++)
-    PetscCall(PetscArrayzero(particles->field[f]->array,
-                             (size_t)particles->capacity * (size_t)particles->field[f]->info.components));
+  for (PgField f = 0; f < particles->nfields; f++) {
+    PgFieldStore *store = particles->field[f];
+    if (!store->array) continue;
+    PetscCall(PetscArrayzero(store->array, (size_t)particles->capacity * (size_t)store->info.components));
+  }
   for (PgRagged r = 0; r < particles->nragged; r++) PetscCall(PgParticlesSetRagged(particles, r, NULL, NULL));
   PetscCall(PgParticlesNumber(particles));
   particles->grid.width = -1;

@@ -7,7 +7,7 @@
 
 typedef struct {
   PgFieldInfo info;  /* its strings are owned by the registry */
-  PetscReal  *array; /* (capacity*components) owned discs first, ghosts after */
+  PetscReal  *array; /* (capacity*components) owned discs first, ghosts after; NULL: not asked for yet */
 } PgFieldStore;
 
 typedef struct {

@@ -1,11 +1,18 @@
 /* The registry: every array of the store, and how they grow. */
 #include "particlesimpl.h"
 
-/* Arrays grow by an eighth at least, so that a slowly changing number of discs rarely allocates and little
-   memory lies idle. */
+/* The first discs get the room they need: without migration no more come. Arrays then grow by an eighth at least, so
+   that a slowly changing number of discs rarely allocates and little memory lies idle. */
 static PetscInt Grown(PetscInt capacity, PetscInt needed)
 {
-  return needed <= capacity ? capacity : needed + needed / 8 + 16;
+  if (needed <= capacity) return capacity;
+  return capacity ? needed + needed / 8 + 16 : needed;
+}
+
+/* What neither travels nor is kept is only filled where it is wanted, for a snapshot say, and has no room before. */
+static PetscBool Passing(const PgFieldStore *store)
+{
+  return (PetscBool) !(store->info.flags & (PG_FIELD_MIGRATE | PG_FIELD_HALO | PG_FIELD_RESTART));
 }
 
 static PetscErrorCode GrowReals(PetscBool keep, size_t held, size_t size, PetscReal **array)
@@ -43,6 +50,7 @@ PetscErrorCode PgParticlesReserve(PgParticles particles, PetscInt discs)
   for (PgField f = 0; f < particles->nfields; f++) {
     PgFieldStore *store = particles->field[f];
     const size_t  c     = (size_t)store->info.components;
+    if (!store->array && Passing(store)) continue;
     PetscCall(GrowReals(PETSC_TRUE, held * c, (size_t)capacity * c, &store->array));
   }
   PetscCall(GrowInts(held, (size_t)capacity, &particles->id));
@@ -106,6 +114,8 @@ PetscErrorCode PgParticlesRegisterField(PgParticles particles, const PgFieldInfo
                  "field '%s' is registered with %" PetscInt_FMT " components and cannot have %" PetscInt_FMT,
                  info->name, store->info.components, info->components);
     store->info.flags |= info->flags;
+    if (!store->array && !Passing(store))
+      PetscCall(PetscCalloc1((size_t)particles->capacity * (size_t)info->components, &store->array));
     *field = found;
     PetscFunctionReturn(0);
   }
@@ -117,7 +127,7 @@ PetscErrorCode PgParticlesRegisterField(PgParticles particles, const PgFieldInfo
   PetscCall(PetscStrallocpy(info->name, (char **)&store->info.name));
   PetscCall(PetscStrallocpy(info->unit ? info->unit : "1", (char **)&store->info.unit));
   PetscCall(PetscStrallocpy(info->description ? info->description : "", (char **)&store->info.description));
-  PetscCall(PetscCalloc1((size_t)particles->capacity * (size_t)info->components, &store->array));
+  if (!Passing(store)) PetscCall(PetscCalloc1((size_t)particles->capacity * (size_t)info->components, &store->array));
   *field                   = particles->nfields++;
   particles->field[*field] = store;
   PetscFunctionReturn(0);
@@ -148,9 +158,14 @@ PetscErrorCode PgParticlesGetFieldInfo(PgParticles particles, PgField field, con
 
 PetscErrorCode PgParticlesGetArray(PgParticles particles, PgField field, PetscReal **array)
 {
+  PgFieldStore *store;
+
   PetscFunctionBeginUser;
   PetscCall(CheckField(particles, field));
-  *array = particles->field[field]->array;
+  store = particles->field[field];
+  if (!store->array)
+    PetscCall(PetscCalloc1((size_t)particles->capacity * (size_t)store->info.components, &store->array));
+  *array = store->array;
   PetscFunctionReturn(0);
 }
 

@@ -72,6 +72,48 @@ static void ragged_data_are_registered_once(void **state)
   OK(PgParticlesDestroy(&particles));
 }
 
+/* A field that neither travels nor is kept has no array before somebody wants it: zero then, like any other. */
+static void passing_fields_are_zero(void **state)
+{
+  PgFieldInfo passing = {"passing", 2, "1", "filled for a snapshot", PG_FIELD_OUTPUT};
+  PgParticles particles;
+  PgField     field, again;
+  PetscInt    owned, ghosts;
+  PetscReal  *value;
+
+  (void)state;
+  OK(PgParticlesCreate(PETSC_COMM_WORLD, &particles));
+  OK(PgParticlesRegisterField(particles, &passing, &field));
+  CreateCloud(&cloud, particles);
+  OK(PgParticlesDistribute(particles, 0.06));
+  OK(PgParticlesHalo(particles, 1, &field));
+  OK(PgParticlesGetSizes(particles, &owned, &ghosts, NULL));
+  OK(PgParticlesGetArray(particles, field, &value));
+  for (PetscInt k = 0; k < 2 * (owned + ghosts); k++) assert_true(value[k] == 0);
+  for (PetscInt k = 0; k < 2 * owned; k++) value[k] = 2.5;
+  passing.flags = PG_FIELD_MIGRATE; /* from now on it travels */
+  OK(PgParticlesRegisterField(particles, &passing, &again));
+  OK(PgParticlesForceMigration(particles, 1));
+  OK(PgParticlesDistribute(particles, 0.06));
+  OK(PgParticlesHalo(particles, 1, &field));
+  OK(PgParticlesGetSizes(particles, &owned, &ghosts, NULL));
+  OK(PgParticlesGetArray(particles, field, &value));
+  for (PetscInt k = 0; k < 2 * (owned + ghosts); k++) assert_true(value[k] == 2.5);
+  passing.name = "another"; /* travels before it is asked for */
+  OK(PgParticlesRegisterField(particles, &passing, &field));
+  passing.name  = "third";
+  passing.flags = PG_FIELD_OUTPUT;
+  OK(PgParticlesRegisterField(particles, &passing, &field));
+  passing.flags = PG_FIELD_MIGRATE;
+  OK(PgParticlesRegisterField(particles, &passing, &again));
+  OK(PgParticlesForceMigration(particles, 2));
+  OK(PgParticlesDistribute(particles, 0.06));
+  OK(PgParticlesGetSizes(particles, &owned, NULL, NULL));
+  OK(PgParticlesGetArray(particles, field, &value));
+  for (PetscInt k = 0; k < 2 * owned; k++) assert_true(value[k] == 0);
+  OK(PgParticlesDestroy(&particles));
+}
+
 static void late_fields_are_zero(void **state)
 {
   const PgFieldInfo late = {"late", 3, "1", "registered after the discs", PG_FIELD_MIGRATE};
@@ -155,6 +197,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(fields_are_registered_once),
     cmocka_unit_test(ragged_data_are_registered_once),
     cmocka_unit_test(late_fields_are_zero),
+    cmocka_unit_test(passing_fields_are_zero),
     cmocka_unit_test(ids_are_checked),
 };
 
