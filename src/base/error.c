@@ -1,5 +1,6 @@
 /* Start, end and errors: one readable message and an exit status that says what kind of trouble it was. */
 #include "baseimpl.h"
+#include <hdf5.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -153,6 +154,10 @@ PetscErrorCode PgInitialize(int *argc, char ***argv, const char about[])
 
   PetscFunctionBeginUser;
   PgTerminalLookAround();
+  /* HDF5 tidies up in MPI_Finalize() when it begins after MPI, or else when the program ends. After a file that could
+     not be read or written its memory may be in disorder, and tidying up crashes: see EndMpi(). */
+  (void)H5dont_atexit();
+  (void)H5open();
   /* ahead of PETSc, so that all ranks can agree on what is wrong with files of options */
   (void)MPI_Initialized(&began);
   if (!began) {
@@ -222,6 +227,7 @@ void PgSetExitStatus(int status) { status_without_error = status; }
 
 static int EndMpi(int status)
 {
+  if (began_mpi && !status) (void)H5close();
   if (began_mpi) (void)MPI_Finalize();
   began_mpi = PETSC_FALSE;
   return status;

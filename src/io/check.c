@@ -39,13 +39,23 @@ PetscErrorCode PgOutputCheckName(MPI_Comm comm, const char file[])
   PetscFunctionReturn(0);
 }
 
+/* What cannot be looked at is not absent: it must not be made anew, nor removed. */
+const char *PgIsThere(const char file[], PetscBool *there, struct stat *found)
+{
+  *there = (PetscBool)(stat(file, found) == 0);
+  return *there || errno == ENOENT || errno == ENOTDIR ? NULL : strerror(errno);
+}
+
 /* Opens the file for writing as the real writing will, and leaves no trace; NULL or why not. */
 const char *PgWhyNotWritable(const char file[])
 {
   struct stat before;
-  const int   there      = stat(file, &before) == 0;
-  const int   descriptor = open(file, O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0666);
+  PetscBool   there;
+  const char *reason = PgIsThere(file, &there, &before);
+  int         descriptor;
 
+  if (reason) return reason;
+  descriptor = open(file, O_WRONLY | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0666);
   if (descriptor < 0) return strerror(errno);
   (void)close(descriptor);
   if (!there) (void)unlink(file);
@@ -128,10 +138,12 @@ const char *PgWhyNoRoom(const char file[], off_t size, off_t more)
 const char *PgWhyNoRoomForNew(const char file[], off_t bytes)
 {
   struct stat before;
-  const int   there      = stat(file, &before) == 0;
-  const int   descriptor = open(file, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  const char *reason     = NULL;
+  PetscBool   there;
+  const char *reason = PgIsThere(file, &there, &before);
+  int         descriptor;
 
+  if (reason) return reason;
+  descriptor = open(file, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) return strerror(errno);
   if (!there) before.st_size = before.st_blocks = 0;
   if ((off_t)before.st_blocks * 512 < bytes) {
@@ -181,8 +193,9 @@ PetscErrorCode PgOutputClose(PgOutput output, PgHdf *hdf)
 
   PetscFunctionBeginUser;
   if (output->rank == 0) {
-    reason            = err ? PgJournalUndo(output->file, &undone) : PgJournalEnd(output->file);
-    output->file_size = stat(output->file, &found) ? 0 : found.st_size;
+    reason = err ? PgJournalUndo(output->file, &undone) : PgJournalEnd(output->file);
+    if (!reason && stat(output->file, &found)) reason = strerror(errno);
+    if (!reason) output->file_size = found.st_size;
   }
   if (err) PetscFunctionReturn(err);
   PetscCall(PgFileCheck(output->comm, PETSC_ERR_FILE_WRITE, "cannot write out result file", output->file, reason));

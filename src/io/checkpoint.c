@@ -274,7 +274,7 @@ static PetscErrorCode CreateWithRoom(PgParticles particles, PgState state, const
   (void)snprintf(what, sizeof what, "cannot write %.3f MiB into checkpoint", (double)bytes / 1048576.);
   PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_WRITE, what, temporary,
                         rank ? NULL : PgWhyNoRoomForNew(temporary, (off_t)bytes)));
-  PetscCall(PgHdfCreate(comm, temporary, &empty));
+  PetscCall(PgHdfCreate(comm, temporary, H5F_LIBVER_EARLIEST, &empty));
   empty.what = "checkpoint";
   PetscCall(PgHdfClose(&empty));
   PetscCall(

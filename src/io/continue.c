@@ -235,6 +235,7 @@ static PetscErrorCode Cut(PgOutput output, const Found *found, const char from[]
 static PetscErrorCode ExamineTogether(PgOutput output, const char run[], Found *found)
 {
   PgHdf       hdf;
+  const char *reason = NULL;
   struct stat status;
 
   PetscFunctionBeginUser;
@@ -245,7 +246,9 @@ static PetscErrorCode ExamineTogether(PgOutput output, const char run[], Found *
   PgInputCheck(!strcmp(found->run, run), output->comm,
                "result file '%s' belongs to another run than the checkpoint: name another one, or remove it",
                output->file);
-  if (output->rank == 0 && !stat(output->file, &status)) output->file_size = status.st_size;
+  if (output->rank == 0 && stat(output->file, &status)) reason = strerror(errno);
+  if (output->rank == 0 && !reason) output->file_size = status.st_size;
+  PetscCall(PgFileCheck(output->comm, PETSC_ERR_FILE_READ, "result file", output->file, reason));
   PetscFunctionReturn(0);
 }
 
@@ -279,14 +282,17 @@ PetscErrorCode PgOutputContinue(PgParticles particles, const char file[], PetscI
                                 PgOutput *output)
 {
   const MPI_Comm comm = PgParticlesComm(particles);
-  PetscMPIInt    rank, there = 0;
+  PetscMPIInt    rank;
+  PetscBool      there = PETSC_FALSE;
   struct stat    status;
+  const char    *reason = NULL;
   PetscErrorCode err;
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) there = stat(file, &status) == 0;
-  PetscCallMPI(MPI_Bcast(&there, 1, MPI_INT, 0, comm));
+  if (rank == 0) reason = PgIsThere(file, &there, &status);
+  PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "result file", file, reason));
+  PetscCallMPI(MPI_Bcast(&there, 1, MPIU_BOOL, 0, comm));
   if (!there) {
     if (run[0])
       PetscCall(PgOutputCreateAs(particles, file, columns, column, run, output));

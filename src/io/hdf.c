@@ -37,7 +37,11 @@ hid_t PgHdfWatch(PgHdf *hdf, const char action[], const char object[], hid_t res
   char      reason[512] = "";
   Innermost in          = {reason, sizeof reason, 0};
 
-  if (result >= 0 || hdf->failed) return result;
+  if (hdf->failed || (result >= 0 && !hdf->disk.error)) return result;
+  if (hdf->disk.error) {
+    PgHdfFail(hdf, action, object, strerror(hdf->disk.error));
+    return result;
+  }
   (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, TakeInnermost, &in);
   /* HDF5 puts the time of day with a line feed into some messages. */
   for (char *c = reason; *c; c++)
@@ -64,63 +68,61 @@ PetscErrorCode PgHdfAgree(PgHdf *hdf)
   PetscFunctionReturn(0);
 }
 
-static void Begin(MPI_Comm comm, const char file[], PgHdf *hdf)
+typedef enum { CREATE, CHANGE, READ } Purpose;
+
+static void OpenHere(const char file[], Purpose purpose, H5F_libver_t oldest, PgHdf *hdf)
 {
+  const hid_t access = PgHdfWatch(hdf, "prepare the access", "", PgDiskAccess(&hdf->disk));
+
+  if (access < 0) return;
+  PgHdfWatch(hdf, "set the format", "", H5Pset_libver_bounds(access, oldest, H5F_LIBVER_LATEST));
+  if (!hdf->failed && purpose == CREATE)
+    hdf->id = PgHdfWatch(hdf, "create the file", "", H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, access));
+  else if (!hdf->failed)
+    hdf->id = PgHdfWatch(hdf, "open the file", "",
+                         H5Fopen(file, purpose == CHANGE ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access));
+  (void)H5Pclose(access);
+}
+
+static PetscErrorCode Open(MPI_Comm comm, const char file[], Purpose purpose, H5F_libver_t oldest, PgHdf *hdf)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBeginUser;
   (void)memset(hdf, 0, sizeof *hdf);
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   hdf->comm = comm;
+  hdf->here = (PetscBool)(rank == 0);
   hdf->file = file;
   hdf->what = "result file";
   hdf->id   = H5I_INVALID_HID;
   hdf->code = PETSC_ERR_FILE_OPEN;
   (void)H5Eget_auto2(H5E_DEFAULT, &hdf->print, &hdf->print_context);
   (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-}
-
-static PetscErrorCode OpenCollectively(MPI_Comm comm, const char file[], PetscBool create, PgHdf *hdf)
-{
-  hid_t access;
-
-  PetscFunctionBeginUser;
-  Begin(comm, file, hdf);
-  access = PgHdfWatch(hdf, "prepare the access", "", H5Pcreate(H5P_FILE_ACCESS));
-  PgHdfWatch(hdf, "set the MPI-IO access", "", H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL));
-  /* After a failure objects may still be open: closing the file closes them too. */
-  PgHdfWatch(hdf, "set the closing mode", "", H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
+  if (hdf->here) OpenHere(file, purpose, oldest, hdf);
   PetscCall(PgHdfAgree(hdf));
-  if (!hdf->failed) {
-    hdf->id = create ? H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, access) : H5Fopen(file, H5F_ACC_RDWR, access);
-    PgHdfWatch(hdf, create ? "create the file" : "open the file", "", hdf->id);
-    PetscCall(PgHdfAgree(hdf));
-  }
-  (void)H5Pclose(access);
-  if (!hdf->failed) hdf->code = PETSC_ERR_FILE_WRITE;
+  if (!hdf->failed) hdf->code = purpose == READ ? PETSC_ERR_FILE_READ : PETSC_ERR_FILE_WRITE;
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgHdfCreate(MPI_Comm comm, const char file[], PgHdf *hdf)
+PetscErrorCode PgHdfCreate(MPI_Comm comm, const char file[], H5F_libver_t oldest, PgHdf *hdf)
 {
   PetscFunctionBeginUser;
-  PetscCall(OpenCollectively(comm, file, PETSC_TRUE, hdf));
+  PetscCall(Open(comm, file, CREATE, oldest, hdf));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgHdfOpen(MPI_Comm comm, const char file[], PgHdf *hdf)
 {
   PetscFunctionBeginUser;
-  PetscCall(OpenCollectively(comm, file, PETSC_FALSE, hdf));
+  PetscCall(Open(comm, file, CHANGE, H5F_LIBVER_EARLIEST, hdf));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgHdfOpenToRead(MPI_Comm comm, const char file[], PgHdf *hdf)
 {
-  PetscMPIInt rank;
-
   PetscFunctionBeginUser;
-  Begin(comm, file, hdf);
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) hdf->id = PgHdfWatch(hdf, "open the file", "", H5Fopen(file, H5F_ACC_RDONLY, H5P_DEFAULT));
-  PetscCall(PgHdfAgree(hdf));
-  if (!hdf->failed) hdf->code = PETSC_ERR_FILE_READ;
+  PetscCall(Open(comm, file, READ, H5F_LIBVER_EARLIEST, hdf));
   PetscFunctionReturn(0);
 }
 
@@ -128,17 +130,37 @@ PetscErrorCode PgHdfFlush(PgHdf *hdf)
 {
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
-  PgHdfWatch(hdf, "write out the file", "", H5Fflush(hdf->id, H5F_SCOPE_GLOBAL));
+  if (hdf->here) {
+    herr_t status = H5Fflush(hdf->id, H5F_SCOPE_GLOBAL);
+    if (status >= 0) PgDiskSync(&hdf->disk);
+    PgHdfWatch(hdf, "write out the file", "", status);
+  }
   PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
+}
+
+void PgHdfDismiss(PgHdf *hdf)
+{
+  hdf->failed     = PETSC_FALSE;
+  hdf->disk.error = 0;
+  hdf->print      = NULL;
+}
+
+void PgHdfShut(PgHdf *hdf)
+{
+  if (hdf->disk.unread)
+    PgDiskAbandon(&hdf->disk);
+  else if (hdf->id >= 0)
+    PgHdfWatch(hdf, "close the file", "", H5Fclose(hdf->id));
+  hdf->id = H5I_INVALID_HID;
+  /* After a failure HDF5 may have lost count of its own memory, and would print lines about that in the end. */
+  if (!hdf->failed) (void)H5Eset_auto2(H5E_DEFAULT, hdf->print, hdf->print_context);
 }
 
 PetscErrorCode PgHdfClose(PgHdf *hdf)
 {
   PetscFunctionBeginUser;
-  if (hdf->id >= 0) PgHdfWatch(hdf, "close the file", "", H5Fclose(hdf->id));
-  hdf->id = H5I_INVALID_HID;
-  (void)H5Eset_auto2(H5E_DEFAULT, hdf->print, hdf->print_context);
+  PgHdfShut(hdf);
   PetscCall(PgHdfAgree(hdf));
   if (hdf->failed) {
     PetscCall(PgReport(hdf->comm, "%s '%s': %s", hdf->what, hdf->file, hdf->trouble));
@@ -149,24 +171,25 @@ PetscErrorCode PgHdfClose(PgHdf *hdf)
 
 PetscErrorCode PgHdfGroup(PgHdf *hdf, const char path[])
 {
-  hid_t group;
-
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
-  group = PgHdfWatch(hdf, "create group", path, H5Gcreate2(hdf->id, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  if (group >= 0) PgHdfWatch(hdf, "close group", path, H5Gclose(group));
+  if (hdf->here) {
+    const hid_t group = PgHdfWatch(hdf, "create group", path,
+                                   H5Gcreate2(hdf->id, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    if (group >= 0) PgHdfWatch(hdf, "close group", path, H5Gclose(group));
+  }
   PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgHdfRemoveIfThere(PgHdf *hdf, const char path[])
 {
-  hid_t there;
-
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
-  there = PgHdfWatch(hdf, "look for", path, H5Lexists(hdf->id, path, H5P_DEFAULT));
-  if (there > 0) PgHdfWatch(hdf, "remove", path, H5Ldelete(hdf->id, path, H5P_DEFAULT));
+  if (hdf->here) {
+    const hid_t there = PgHdfWatch(hdf, "look for", path, H5Lexists(hdf->id, path, H5P_DEFAULT));
+    if (there > 0) PgHdfWatch(hdf, "remove", path, H5Ldelete(hdf->id, path, H5P_DEFAULT));
+  }
   PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
@@ -175,17 +198,16 @@ PetscErrorCode PgHdfMove(PgHdf *hdf, const char from[], const char to[])
 {
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
-  PgHdfWatch(hdf, "move a group to", to, H5Lmove(hdf->id, from, hdf->id, to, H5P_DEFAULT, H5P_DEFAULT));
+  if (hdf->here) PgHdfWatch(hdf, "move a group to", to, H5Lmove(hdf->id, from, hdf->id, to, H5P_DEFAULT, H5P_DEFAULT));
   PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WriteAttribute(PgHdf *hdf, const char object[], const char name[], hid_t type, const void *value)
+static void WriteAttribute(PgHdf *hdf, const char object[], const char name[], hid_t type, const void *value)
 {
   hid_t space, attribute, there;
   char  path[PETSC_MAX_PATH_LEN];
 
-  PetscFunctionBeginUser;
   (void)snprintf(path, sizeof path, "%s, %s", object, name);
   there = PgHdfWatch(hdf, "look for attribute", path, H5Aexists_by_name(hdf->id, object, name, H5P_DEFAULT));
   if (there > 0) PgHdfWatch(hdf, "replace attribute", path, H5Adelete_by_name(hdf->id, object, name, H5P_DEFAULT));
@@ -197,22 +219,25 @@ static PetscErrorCode WriteAttribute(PgHdf *hdf, const char object[], const char
     PgHdfWatch(hdf, "close attribute", path, H5Aclose(attribute));
   }
   if (space >= 0) (void)H5Sclose(space);
-  PetscCall(PgHdfAgree(hdf));
-  PetscFunctionReturn(0);
+}
+
+static void WriteText(PgHdf *hdf, const char object[], const char name[], const char value[])
+{
+  /* Variable length: no limit of 64 KiB for long lists of options, and h5py hands out str, not bytes. */
+  const hid_t type = PgHdfWatch(hdf, "make a string type for", object, H5Tcopy(H5T_C_S1));
+
+  PgHdfWatch(hdf, "make a string type for", object, H5Tset_size(type, H5T_VARIABLE));
+  PgHdfWatch(hdf, "make a string type for", object, H5Tset_cset(type, H5T_CSET_UTF8));
+  if (!hdf->failed) WriteAttribute(hdf, object, name, type, &value);
+  (void)H5Tclose(type);
 }
 
 PetscErrorCode PgHdfText(PgHdf *hdf, const char object[], const char name[], const char value[])
 {
-  hid_t type;
-
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
-  /* Variable length: no limit of 64 KiB for long lists of options, and h5py hands out str, not bytes. */
-  type = PgHdfWatch(hdf, "make a string type for", object, H5Tcopy(H5T_C_S1));
-  PgHdfWatch(hdf, "make a string type for", object, H5Tset_size(type, H5T_VARIABLE));
-  PgHdfWatch(hdf, "make a string type for", object, H5Tset_cset(type, H5T_CSET_UTF8));
-  PetscCall(WriteAttribute(hdf, object, name, type, &value));
-  (void)H5Tclose(type);
+  if (hdf->here) WriteText(hdf, object, name, value);
+  PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
@@ -220,7 +245,8 @@ PetscErrorCode PgHdfReal(PgHdf *hdf, const char object[], const char name[], Pet
 {
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
-  PetscCall(WriteAttribute(hdf, object, name, PG_HDF_REAL, &value));
+  if (hdf->here) WriteAttribute(hdf, object, name, PG_HDF_REAL, &value);
+  PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
@@ -228,19 +254,16 @@ PetscErrorCode PgHdfInt(PgHdf *hdf, const char object[], const char name[], Pets
 {
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
-  PetscCall(WriteAttribute(hdf, object, name, PG_HDF_INT, &value));
+  if (hdf->here) WriteAttribute(hdf, object, name, PG_HDF_INT, &value);
+  PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgHdfDataset(PgHdf *hdf, const char path[], hid_t type, int rank, const hsize_t size[],
-                            hsize_t chunk_rows, const char unit[], const char description[])
+static void CreateDataset(PgHdf *hdf, const char path[], hid_t type, int rank, const hsize_t size[], hsize_t chunk_rows)
 {
   hsize_t limit[PG_HDF_MAX_RANK], chunk[PG_HDF_MAX_RANK];
   hid_t   space, create, dataset;
 
-  PetscFunctionBeginUser;
-  if (hdf->failed) PetscFunctionReturn(0);
-  PetscCheck(rank >= 1 && rank <= PG_HDF_MAX_RANK, hdf->comm, PETSC_ERR_PLIB, "rank %d of dataset %s", rank, path);
   for (int k = 0; k < rank; k++) limit[k] = chunk[k] = size[k];
   create = PgHdfWatch(hdf, "describe dataset", path, H5Pcreate(H5P_DATASET_CREATE));
   /* Every row gets written: filling in zeros first would double the traffic. */
@@ -256,73 +279,142 @@ PetscErrorCode PgHdfDataset(PgHdf *hdf, const char path[], hid_t type, int rank,
   if (dataset >= 0) PgHdfWatch(hdf, "close dataset", path, H5Dclose(dataset));
   if (space >= 0) (void)H5Sclose(space);
   if (create >= 0) (void)H5Pclose(create);
+}
+
+PetscErrorCode PgHdfDataset(PgHdf *hdf, const char path[], hid_t type, int rank, const hsize_t size[],
+                            hsize_t chunk_rows, const char unit[], const char description[])
+{
+  PetscFunctionBeginUser;
+  if (hdf->failed) PetscFunctionReturn(0);
+  PetscCheck(rank >= 1 && rank <= PG_HDF_MAX_RANK, hdf->comm, PETSC_ERR_PLIB, "rank %d of dataset %s", rank, path);
+  if (hdf->here) {
+    CreateDataset(hdf, path, type, rank, size, chunk_rows);
+    if (!hdf->failed) WriteText(hdf, path, "unit", unit);
+    if (!hdf->failed) WriteText(hdf, path, "description", description);
+  }
   PetscCall(PgHdfAgree(hdf));
-  PetscCall(PgHdfText(hdf, path, "unit", unit));
-  PetscCall(PgHdfText(hdf, path, "description", description));
   PetscFunctionReturn(0);
 }
 
-/* Opens the dataset and gives it `rows` rows; size[] is its shape, *rank 0 after a failure. */
-static hid_t OpenRows(PgHdf *hdf, const char path[], PetscInt rows, int *rank, hsize_t size[])
-{
-  hid_t dataset, space;
+/* ---- rows ---- */
 
-  *rank   = 0;
-  dataset = PgHdfWatch(hdf, "open dataset", path, H5Dopen2(hdf->id, path, H5P_DEFAULT));
-  if (dataset < 0) return dataset;
-  space = PgHdfWatch(hdf, "open dataset", path, H5Dget_space(dataset));
+/* A dataset that rows are written to, on rank 0. */
+typedef struct {
+  const char *path;
+  hid_t       dataset, type;
+  int         rank;
+  hsize_t     size[PG_HDF_MAX_RANK];
+} Rows;
+
+/* Opens the dataset and gives it so many rows. */
+static void OpenRows(PgHdf *hdf, PetscInt count, Rows *rows)
+{
+  hid_t space;
+
+  rows->dataset = PgHdfWatch(hdf, "open dataset", rows->path, H5Dopen2(hdf->id, rows->path, H5P_DEFAULT));
+  if (rows->dataset < 0) return;
+  space = PgHdfWatch(hdf, "open dataset", rows->path, H5Dget_space(rows->dataset));
   if (space >= 0) {
     const int found = H5Sget_simple_extent_dims(space, NULL, NULL);
     if (found >= 1 && found <= PG_HDF_MAX_RANK)
-      *rank = H5Sget_simple_extent_dims(space, size, NULL);
+      rows->rank = H5Sget_simple_extent_dims(space, rows->size, NULL);
     else
-      PgHdfFail(hdf, "write dataset", path, "it has no rows");
+      PgHdfFail(hdf, "write dataset", rows->path, "it has no rows");
     (void)H5Sclose(space);
   }
-  if (*rank && size[0] != (hsize_t)rows) {
-    size[0] = (hsize_t)rows;
-    PgHdfWatch(hdf, "extend dataset", path, H5Dset_extent(dataset, size));
+  if (rows->rank && rows->size[0] != (hsize_t)count) {
+    rows->size[0] = (hsize_t)count;
+    PgHdfWatch(hdf, "extend dataset", rows->path, H5Dset_extent(rows->dataset, rows->size));
   }
-  return dataset;
+}
+
+static void PutRows(PgHdf *hdf, const Rows *rows, PetscInt start, PetscInt count, const void *data)
+{
+  hsize_t offset[PG_HDF_MAX_RANK] = {(hsize_t)start}, size[PG_HDF_MAX_RANK];
+  hid_t   file_space, memory_space;
+
+  if (hdf->failed || !count) return;
+  (void)memcpy(size, rows->size, sizeof size);
+  size[0]      = (hsize_t)count;
+  file_space   = PgHdfWatch(hdf, "select rows of", rows->path, H5Dget_space(rows->dataset));
+  memory_space = PgHdfWatch(hdf, "select rows of", rows->path, H5Screate_simple(rows->rank, size, NULL));
+  PgHdfWatch(hdf, "select rows of", rows->path,
+             H5Sselect_hyperslab(file_space, H5S_SELECT_SET, offset, NULL, size, NULL));
+  if (!hdf->failed)
+    PgHdfWatch(hdf, "write dataset", rows->path,
+               H5Dwrite(rows->dataset, rows->type, memory_space, file_space, H5P_DEFAULT, data));
+  if (memory_space >= 0) (void)H5Sclose(memory_space);
+  if (file_space >= 0) (void)H5Sclose(file_space);
+}
+
+/* Rank 0: the rows of the other ranks, piece by piece; they are received even after a failure, so that nobody
+   waits for ever. */
+static PetscErrorCode Receive(PgHdf *hdf, const Rows *rows, PetscInt most, size_t row_bytes)
+{
+  PetscMPIInt ranks;
+  PetscInt   *range, longest = 0, none[2] = {0, 0};
+  char       *piece;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(hdf->comm, &ranks));
+  PetscCall(PetscMalloc1(2 * ranks, &range));
+  PetscCallMPI(MPI_Gather(none, 2, MPIU_INT, range, 2, MPIU_INT, 0, hdf->comm));
+  for (PetscMPIInt r = 1; r < ranks; r++) longest = PetscMax(longest, range[2 * r + 1]);
+  PetscCall(PetscMalloc1((size_t)PetscMin(most, longest) * row_bytes, &piece));
+  for (PetscMPIInt r = 1; r < ranks; r++) {
+    const PetscInt start = range[2 * r], count = range[2 * r + 1];
+    for (PetscInt done = 0; done < count; done += most) {
+      const PetscInt now = PetscMin(most, count - done);
+      PetscCallMPI(
+          MPI_Recv(piece, (PetscMPIInt)((size_t)now * row_bytes), MPI_BYTE, r, 0, hdf->comm, MPI_STATUS_IGNORE));
+      PutRows(hdf, rows, start + done, now, piece);
+    }
+  }
+  PetscCall(PetscFree(piece));
+  PetscCall(PetscFree(range));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Send(PgHdf *hdf, PetscInt most, size_t row_bytes, PetscInt start, PetscInt count,
+                           const char *data)
+{
+  PetscInt mine[2] = {start, count};
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Gather(mine, 2, MPIU_INT, NULL, 0, MPIU_INT, 0, hdf->comm));
+  for (PetscInt done = 0; done < count; done += most) {
+    const PetscInt now = PetscMin(most, count - done);
+    PetscCallMPI(
+        MPI_Send(data + (size_t)done * row_bytes, (PetscMPIInt)((size_t)now * row_bytes), MPI_BYTE, 0, 0, hdf->comm));
+  }
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgHdfWriteRows(PgHdf *hdf, const char path[], hid_t type, PetscInt rows, PetscInt start, PetscInt count,
                               const void *data)
 {
-  hsize_t offset[PG_HDF_MAX_RANK] = {0}, size[PG_HDF_MAX_RANK] = {0};
-  hid_t   dataset, file_space, memory_space, transfer;
-  int     rank;
+  const PetscInt64 message = 1 << 18; /* bytes */
+  Rows             to      = {.path = path, .dataset = H5I_INVALID_HID, .type = type};
+  PetscInt64       row_bytes;
+  PetscInt         most;
 
   PetscFunctionBeginUser;
   if (hdf->failed) PetscFunctionReturn(0);
-  dataset = OpenRows(hdf, path, rows, &rank, size);
+  if (hdf->here) OpenRows(hdf, rows, &to);
   PetscCall(PgHdfAgree(hdf));
   if (!hdf->failed) {
-    static const char unused = 0;
-
-    offset[0]    = count ? (hsize_t)start : 0;
-    size[0]      = (hsize_t)count;
-    file_space   = PgHdfWatch(hdf, "select rows of", path, H5Dget_space(dataset));
-    memory_space = PgHdfWatch(hdf, "select rows of", path, H5Screate_simple(rank, size, NULL));
-    if (count) {
-      PgHdfWatch(hdf, "select rows of", path,
-                 H5Sselect_hyperslab(file_space, H5S_SELECT_SET, offset, NULL, size, NULL));
+    row_bytes = hdf->here ? (PetscInt64)H5Tget_size(type) : 0;
+    for (int k = 1; k < to.rank; k++) row_bytes *= (PetscInt64)to.size[k];
+    PetscCallMPI(MPI_Bcast(&row_bytes, 1, MPIU_INT64, 0, hdf->comm));
+    most = (PetscInt)PetscMax(1, message / PetscMax(1, row_bytes));
+    if (hdf->here) {
+      PutRows(hdf, &to, start, count, data);
+      PetscCall(Receive(hdf, &to, most, (size_t)row_bytes));
     } else {
-      PgHdfWatch(hdf, "select rows of", path, H5Sselect_none(file_space));
-      PgHdfWatch(hdf, "select rows of", path, H5Sselect_none(memory_space));
+      PetscCall(Send(hdf, most, (size_t)row_bytes, start, count, data));
     }
-    /* Every rank has one contiguous piece, so that there is nothing to gain from a collective transfer; and
-       in one a failure of one rank leaves the others waiting. */
-    transfer = PgHdfWatch(hdf, "set the transfer of", path, H5Pcreate(H5P_DATASET_XFER));
-    PgHdfWatch(hdf, "set the transfer of", path, H5Pset_dxpl_mpio(transfer, H5FD_MPIO_INDEPENDENT));
-    if (!hdf->failed)
-      PgHdfWatch(hdf, "write dataset", path,
-                 H5Dwrite(dataset, type, memory_space, file_space, transfer, count ? data : &unused));
-    if (transfer >= 0) (void)H5Pclose(transfer);
-    if (memory_space >= 0) (void)H5Sclose(memory_space);
-    if (file_space >= 0) (void)H5Sclose(file_space);
   }
-  if (dataset >= 0) PgHdfWatch(hdf, "close dataset", path, H5Dclose(dataset));
+  if (to.dataset >= 0) PgHdfWatch(hdf, "close dataset", path, H5Dclose(to.dataset));
   PetscCall(PgHdfAgree(hdf));
   PetscFunctionReturn(0);
 }

@@ -5,11 +5,7 @@
 #include <hdf5.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <sys/types.h>
-
-#if !defined(H5_HAVE_PARALLEL)
-  #error "porograin needs an HDF5 library built with MPI"
-#endif
+#include <sys/stat.h>
 
 #if defined(PETSC_USE_REAL_SINGLE)
   #define PG_HDF_REAL H5T_NATIVE_FLOAT
@@ -24,9 +20,25 @@
   #define PG_HDF_INT H5T_NATIVE_INT
 #endif
 
+/* ---- disk.c: the way from HDF5 to a file, all calls are for one rank ---- */
+typedef struct {
+  int       error;      /* errno of the first failure, 0: none; nothing has been written since */
+  int       descriptor; /* -1: not open */
+  PetscBool unread;     /* something could not be read: HDF5 is not to be trusted with this file any more */
+  void     *file;       /* HDF5's idea of it */
+} PgDisk;
+
+/* How to open files with H5Fcreate() and H5Fopen(): the disk must live until the file is closed. Negative after a
+   failure of HDF5. The caller closes it with H5Pclose(). */
+PETSC_INTERN hid_t PgDiskAccess(PgDisk *disk);
+/* Waits until what was written is on the disk. */
+PETSC_INTERN void PgDiskSync(PgDisk *disk);
+/* In the place of H5Fclose(): closes the file behind HDF5's back, which will never touch it again. */
+PETSC_INTERN void PgDiskAbandon(PgDisk *disk);
+
 /* ---- hdf.c: an HDF5 file between opening and closing ----
 
-   The first HDF5 failure is remembered and makes the calls that follow do nothing, so that callers are
+   Rank 0 alone has the file open: the others send their rows to it. The first failure is remembered and makes the calls that follow do nothing, so that callers are
    straight lines with one check at the end: PgHdfClose() prints it once and returns its code on every
    rank. PetscErrorCode returned by the other calls is about PETSc and MPI only. All calls are collective
    on comm, with the same arguments on every rank but for the rows that are written. */
@@ -34,7 +46,9 @@ typedef struct {
   MPI_Comm       comm;
   const char    *file;
   const char    *what; /* kind of file, for messages */
-  hid_t          id;
+  PgDisk         disk;
+  hid_t          id;   /* of rank 0 */
+  PetscBool      here; /* this is rank 0 of comm */
   PetscBool      failed;
   PetscErrorCode code;          /* what the failure is returned as */
   char           trouble[1024]; /* "cannot write dataset '/a/b': ..." */
@@ -44,14 +58,18 @@ typedef struct {
 
 #define PG_HDF_MAX_RANK 3
 
-/* Truncates an existing file. */
-PETSC_INTERN PetscErrorCode PgHdfCreate(MPI_Comm comm, const char file[], PgHdf *hdf);
+/* The PgHdf must stay where it is until PgHdfClose(). Truncates an existing file; `oldest` is the first version of
+   HDF5 that shall be able to read the file. */
+PETSC_INTERN PetscErrorCode PgHdfCreate(MPI_Comm comm, const char file[], H5F_libver_t oldest, PgHdf *hdf);
 PETSC_INTERN PetscErrorCode PgHdfOpen(MPI_Comm comm, const char file[], PgHdf *hdf);
-/* Opens for reading on rank 0 of comm, which alone uses hdf->id until PgHdfClose(). */
 PETSC_INTERN PetscErrorCode PgHdfOpenToRead(MPI_Comm comm, const char file[], PgHdf *hdf);
 PETSC_INTERN PetscErrorCode PgHdfClose(PgHdf *hdf);
+/* The same on rank 0 alone, without a word: the failure is in hdf. Not collective. */
+PETSC_INTERN void PgHdfShut(PgHdf *hdf);
+/* Forgets a failure that the caller tells of: PgHdfClose() will not. */
+PETSC_INTERN void           PgHdfDismiss(PgHdf *hdf);
 PETSC_INTERN PetscErrorCode PgHdfFlush(PgHdf *hdf);
-/* Passes on `result` of an HDF5 call and remembers the failure if it is negative. Not collective. */
+/* Passes on `result` of an HDF5 call and remembers the failure if it is negative, or the disk's. Not collective. */
 PETSC_INTERN hid_t PgHdfWatch(PgHdf *hdf, const char action[], const char object[], hid_t result);
 /* Remembers a failure that HDF5 does not know of. Not collective. */
 PETSC_INTERN void PgHdfFail(PgHdf *hdf, const char action[], const char object[], const char reason[]);
@@ -177,7 +195,8 @@ PETSC_INTERN PetscErrorCode PgOutputCheckRoom(PgOutput output, PetscReal bytes);
 PETSC_INTERN PetscErrorCode PgOutputOpen(PgOutput output, PetscReal more, PgHdf *hdf);
 /* Closes it; after a failure the file is as it was before it was opened. Collective. */
 PETSC_INTERN PetscErrorCode PgOutputClose(PgOutput output, PgHdf *hdf);
-/* For rank 0, all three: NULL or why not. */
+/* For rank 0, all four: NULL or why not. */
+PETSC_INTERN const char *PgIsThere(const char file[], PetscBool *there, struct stat *found);
 PETSC_INTERN const char *PgWhyNotWritable(const char file[]);
 PETSC_INTERN const char *PgWhyNoRoom(const char file[], off_t size, off_t more);
 PETSC_INTERN const char *PgWhyNoRoomForNew(const char file[], off_t bytes);

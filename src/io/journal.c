@@ -192,11 +192,14 @@ const char *PgJournalUndo(const char file[], PetscBool *undone)
   char        name[PETSC_MAX_PATH_LEN];
   const char *reason = JournalName(file, "", name);
   PgSealInfo  info;
+  PetscBool   there;
+  struct stat found;
   int         journal, descriptor;
 
   *undone = PETSC_FALSE;
   if (reason) return reason;
-  if (access(name, F_OK)) return NULL;
+  reason = PgIsThere(name, &there, &found);
+  if (reason || !there) return reason;
   reason = PgSealVerify(name, PG_SEAL_JOURNAL, &info);
   if (reason) return reason;
   journal    = open(name, O_RDONLY | O_CLOEXEC);
@@ -214,7 +217,10 @@ const char *PgJournalUndo(const char file[], PetscBool *undone)
 
 PetscBool PgJournalIsThere(const char file[])
 {
-  char name[PETSC_MAX_PATH_LEN];
+  char        name[PETSC_MAX_PATH_LEN];
+  PetscBool   there;
+  struct stat found;
 
-  return (PetscBool)(!JournalName(file, "", name) && access(name, F_OK) == 0);
+  if (JournalName(file, "", name)) return PETSC_FALSE;
+  return (PetscBool)(PgIsThere(name, &there, &found) || there);
 }

@@ -23,7 +23,7 @@ PetscErrorCode PgOutputWriteFirst(PgOutput output, const PgGrid *grid)
 
   PetscFunctionBeginUser;
   if (output->rank == 0) PgJournalForget(output->file);
-  PetscCall(PgHdfCreate(output->comm, output->file, &hdf));
+  PetscCall(PgHdfCreate(output->comm, output->file, H5F_LIBVER_EARLIEST, &hdf));
   PetscCall(PgProvenanceStart(&hdf));
   PetscCall(PgHdfText(&hdf, "/provenance", "run", output->run));
   PetscCall(PgHdfGroup(&hdf, "/snapshots"));

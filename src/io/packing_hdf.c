@@ -269,10 +269,8 @@ static void Close(PgPackingSource *source)
 
   for (int set = 0; set < SETS; set++)
     if (f->dataset[set] >= 0) (void)H5Dclose(f->dataset[set]);
-  f->hdf.failed = PETSC_FALSE; /* the reason has been taken */
+  if (source->code) PgHdfDismiss(&f->hdf);
   (void)PgHdfClose(&f->hdf);
-  /* after damaged files HDF5 has lost count of its own memory, and would say so when the program ends */
-  if (source->code) (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   (void)PetscFree(f->piece);
   (void)PetscFree(source->context);
 }

@@ -100,25 +100,6 @@ static const struct {
                     {"/radius", "m", "radius of the disc", 1, PG_PACKING_R},
                     {"/velocity", "m/s", "velocity of the centre", 2, PG_PACKING_VX}};
 
-/* Failures go to the sink, not to the user: the other ranks are not here. */
-static void HdfOpen(PgPackingSink *sink)
-{
-  PgHdf *hdf = &sink->hdf;
-  hid_t  access;
-
-  (void)memset(hdf, 0, sizeof *hdf);
-  hdf->comm = PETSC_COMM_SELF;
-  hdf->file = sink->part;
-  hdf->id   = H5I_INVALID_HID;
-  (void)H5Eget_auto2(H5E_DEFAULT, &hdf->print, &hdf->print_context);
-  (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  access = PgHdfWatch(hdf, "prepare the access", "", H5Pcreate(H5P_FILE_ACCESS));
-  PgHdfWatch(hdf, "set the format", "", H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_LATEST));
-  if (!hdf->failed) hdf->id = H5Fcreate(sink->part, H5F_ACC_TRUNC, H5P_DEFAULT, access);
-  PgHdfWatch(hdf, "create the file", "", hdf->id);
-  if (access >= 0) (void)H5Pclose(access);
-}
-
 static PetscErrorCode HdfDataset(PgPackingSink *sink, int set)
 {
   PgHdf        *hdf     = &sink->hdf;
@@ -146,7 +127,7 @@ static PetscErrorCode HdfDataset(PgPackingSink *sink, int set)
 
 static PetscErrorCode HdfStart(PgPackingSink *sink)
 {
-  /* HDF5 does not survive a disk that is full: the room is asked for before. Values, and tables without end. */
+  /* No work for a disk that is full: the room is asked for before. Values, and tables without end. */
   const off_t     values  = (off_t)sink->packing->global * PG_PACKING_VALUES * (off_t)sizeof(PetscReal);
   const char     *no_room = PgWhyNoRoomForNew(sink->part, values + values / 50 + 65536);
   PgHdf          *hdf     = &sink->hdf;
@@ -160,7 +141,8 @@ static PetscErrorCode HdfStart(PgPackingSink *sink)
     SinkFail(sink, no_room);
     PetscFunctionReturn(0);
   }
-  HdfOpen(sink);
+  /* The newer layout has checksums of its tables. */
+  PetscCall(PgHdfCreate(PETSC_COMM_SELF, sink->part, H5F_LIBVER_V110, hdf));
   PetscCall(PgHdfText(hdf, "/", "format", "porograin packing"));
   PetscCall(PgHdfText(hdf, "/", "program_version", PG_VERSION));
   for (int set = 0; set < SETS; set++) PetscCall(HdfDataset(sink, set));
@@ -213,8 +195,7 @@ static PetscErrorCode HdfFinish(PgPackingSink *sink)
   PetscFunctionBeginUser;
   PetscCall(PetscFree(sink->piece));
   if (!hdf->file) PetscFunctionReturn(0); /* not begun, for want of room */
-  if (hdf->id >= 0) PgHdfWatch(hdf, "close the file", "", H5Fclose(hdf->id));
-  (void)H5Eset_auto2(H5E_DEFAULT, hdf->print, hdf->print_context);
+  PgHdfShut(hdf);
   if (hdf->failed) SinkFail(sink, hdf->trouble);
   PetscFunctionReturn(0);
 }

@@ -84,19 +84,15 @@ static const char *Settle(PgOutput output, hid_t file)
 
 const char *PgSettle(PgOutput output)
 {
-  const char *reason = NULL;
-  H5E_auto2_t print;
-  void       *context;
-  hid_t       file;
+  const char *reason;
+  PgHdf       hdf;
 
   if (output->settled_snapshots == output->snapshots &&
       output->settled_rows / PG_HISTORY_CHUNK == output->written / PG_HISTORY_CHUNK)
     return NULL;
-  (void)H5Eget_auto2(H5E_DEFAULT, &print, &context);
-  (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  file   = H5Fopen(output->file, H5F_ACC_RDONLY, H5P_DEFAULT);
-  reason = file < 0 ? "HDF5 cannot open it" : Settle(output, file);
-  if (file >= 0) (void)H5Fclose(file);
-  (void)H5Eset_auto2(H5E_DEFAULT, print, context);
-  return reason;
+  if (PgHdfOpenToRead(PETSC_COMM_SELF, output->file, &hdf)) return "its settled parts cannot be looked for";
+  reason = hdf.failed ? "HDF5 cannot open it" : Settle(output, hdf.id);
+  if (hdf.disk.error) reason = strerror(hdf.disk.error);
+  if (reason) PgHdfDismiss(&hdf);
+  return PgHdfClose(&hdf) && !reason ? "HDF5 cannot close it" : reason;
 }

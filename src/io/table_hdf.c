@@ -5,8 +5,15 @@
 #include <math.h>
 #include <stdio.h>
 
-/* HDF5 prints pages of its own about a full disk; the caller says it in one line. */
-static void Quiet(void) { (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL); }
+/* Ends the use of the file: 0, or the code of the first failure and what it was. */
+static PetscErrorCode Shut(PgHdf *hdf, const char option[], char trouble[], size_t length)
+{
+  PgHdfShut(hdf);
+  if (!hdf->failed) return 0;
+  (void)snprintf(trouble, length, "%s%scannot write %s%s%s", option, option[0] ? ": " : "", hdf->file,
+                 hdf->disk.error ? ": " : "", hdf->disk.error ? strerror(hdf->disk.error) : "");
+  return hdf->code;
+}
 
 static herr_t Attribute(hid_t object, const char name[], hid_t type, const void *value)
 {
@@ -57,21 +64,16 @@ static herr_t Provenance(hid_t file, const char *options, PetscMPIInt ranks)
 PetscErrorCode PgTableHdfCreate(const PgTableFiles *files, const char file[], const char *options, PetscMPIInt ranks,
                                 char trouble[], size_t length)
 {
-  hid_t  id;
-  herr_t status;
+  PgHdf hdf;
+  char  option[128];
 
-  Quiet();
-  id = H5Fcreate(file, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (id < 0) {
-    (void)snprintf(trouble, length, "option %s: cannot write %s", files->option, file);
-    return PETSC_ERR_FILE_OPEN;
+  (void)snprintf(option, sizeof option, "option %s", files->option);
+  if (PgHdfCreate(PETSC_COMM_SELF, file, H5F_LIBVER_EARLIEST, &hdf)) return PETSC_ERR_FILE_OPEN;
+  if (!hdf.failed) {
+    option[0] = '\0'; /* the name was good */
+    PgHdfWatch(&hdf, "write", "/provenance", Provenance(hdf.id, options, ranks));
   }
-  status = Provenance(id, options, ranks);
-  if (H5Fclose(id) < 0 || status < 0) {
-    (void)snprintf(trouble, length, "cannot write %s", file);
-    return PETSC_ERR_FILE_WRITE;
-  }
-  return 0;
+  return Shut(&hdf, option, trouble, length);
 }
 
 static herr_t History(hid_t group, PetscInt n, const PetscReal history[], const char unit[], const char description[])
@@ -111,16 +113,17 @@ static hid_t OpenGroup(hid_t file, PgTable t)
 PetscErrorCode PgTableHdfRow(PgTable t, const char file[], PetscInt n, const PetscReal history[], const char unit[],
                              const char description[], char trouble[], size_t length)
 {
-  char        name[32];
-  herr_t      status = -1;
-  const hid_t id     = H5Fopen(file, H5F_ACC_RDWR, H5P_DEFAULT);
-  const hid_t group  = id < 0 ? -1 : OpenGroup(id, t);
-  hid_t       row    = -1;
+  char  name[32];
+  PgHdf hdf;
+  hid_t group = -1, row = -1;
 
+  if (PgHdfOpen(PETSC_COMM_SELF, file, &hdf)) return PETSC_ERR_FILE_WRITE;
   (void)snprintf(name, sizeof name, "%03" PetscInt_FMT, t->rows);
-  if (group >= 0) row = H5Gcreate2(group, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  if (!hdf.failed) group = PgHdfWatch(&hdf, "open group", t->name, OpenGroup(hdf.id, t));
+  if (group >= 0)
+    row = PgHdfWatch(&hdf, "create group", name, H5Gcreate2(group, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   if (row >= 0) {
-    status = 0;
+    herr_t status = 0;
     for (PetscInt c = 0; c < t->columns && status >= 0; c++) {
       if (!t->column[c].unit)
         status = Text(row, t->column[c].name, t->cell[c].text);
@@ -128,11 +131,9 @@ PetscErrorCode PgTableHdfRow(PgTable t, const char file[], PetscInt n, const Pet
         status = Attribute(row, t->column[c].name, PG_HDF_REAL, &t->cell[c].value);
     }
     if (status >= 0 && n > 0) status = History(row, n, history, unit, description);
+    PgHdfWatch(&hdf, "write row", name, status);
     (void)H5Gclose(row);
   }
   if (group >= 0) (void)H5Gclose(group);
-  if (id >= 0 && H5Fclose(id) < 0) status = -1;
-  if (status >= 0) return 0;
-  (void)snprintf(trouble, length, "cannot write %s", file);
-  return PETSC_ERR_FILE_WRITE;
+  return Shut(&hdf, "", trouble, length);
 }

@@ -80,8 +80,11 @@ static void Act(hid_t file, int count, char *word[])
   if (!strcmp(act, "remove")) {
     Demand(H5Ldelete(file, path, H5P_DEFAULT) >= 0, path);
   } else if (!strcmp(act, "group")) {
+    hid_t group;
+
     (void)H5Ldelete(file, path, H5P_DEFAULT);
-    Demand(H5Gcreate2(file, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT) >= 0, path);
+    group = H5Gcreate2(file, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    Demand(group >= 0 && H5Gclose(group) >= 0, path);
   } else if (!strcmp(act, "attribute")) {
     Attribute(file, path, atoi(more));
   } else if (!strcmp(act, "value")) {
