@@ -9,6 +9,7 @@
 #pragma once
 
 #include <porograin/io.h>
+#include <petscmat.h>
 
 typedef struct PgFem_s *PgFem;
 
@@ -114,6 +115,15 @@ typedef struct {
 PETSC_EXTERN PetscErrorCode PgFemGetStats(PgFem fem, PgFemStats *stats);
 PETSC_EXTERN PetscErrorCode PgFemSetErrorIfNotConverged(PgFem fem, PetscBool error);
 PETSC_EXTERN PetscErrorCode PgFemGetTime(PgFem fem, PetscInt *step, PetscReal *time);
+
+/* The system of the present step, for studies of it: A w = b with the pressure in units of `scale` [Pa]; rows of held
+   unknowns hold a diagonal alone; P stands for the Schur complement. All is borrowed. After PgFemSetUpSolver(). */
+typedef struct {
+  Mat       A, P;
+  IS        displacement, pressure;
+  PetscReal scale;
+} PgFemSystem;
+PETSC_EXTERN PetscErrorCode PgFemGetSystem(PgFem fem, PgFemSystem *system);
 
 /* ---- loads that come from elsewhere, such as particles ---- */
 

@@ -248,6 +248,14 @@ PetscErrorCode PgFemSystemBuild(PgFem fem, PetscReal dt, PetscReal theta)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgFemGetSystem(PgFem fem, PgFemSystem *system)
+{
+  PetscFunctionBeginUser;
+  PetscCheck(fem->A, fem->comm, PETSC_ERR_ORDER, "PgFemSetUpSolver() comes before PgFemGetSystem()");
+  *system = (PgFemSystem){fem->A, fem->P, fem->is_u, fem->is_p, fem->scale};
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgFemSystemDestroy(PgFem fem)
 {
   PetscFunctionBeginUser;
