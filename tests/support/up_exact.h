@@ -72,3 +72,26 @@ static inline void Mandel(const PgFemMaterial *m, PetscReal force, PetscReal a, 
   *pressure = 2.0 * force * B * (1.0 + nu_u) / (3.0 * a) * sum;
   *plate    = force / (G * a) * (-0.5 * (1.0 - m->nu) + (1.0 - nu_u) * way);
 }
+
+/* A half plane y < 0 of an incompressible mixture under a stress q on |x| < b: displacement (G being the shear modulus)
+   and pressure = mean stress of the plane, from the line load of Flamant. The displacement of the middle is that of b = 1
+   with logarithms of metres. */
+static inline void StripSum(PetscReal x, PetscReal depth, PetscReal sign, PetscReal sum[3])
+{
+  const PetscReal r2 = x * x + depth * depth, log_r2 = r2 > 0.0 ? PetscLogReal(r2) : 0.0;
+
+  sum[0] += sign * 0.5 * depth * log_r2;
+  sum[1] += sign * 0.5 * x * log_r2;
+  sum[2] += sign * atan2(x, depth);
+}
+
+static inline void Strip(PetscReal q, PetscReal b, PetscReal G, const PetscReal x[2], PetscReal u[2], PetscReal *p)
+{
+  PetscReal sum[3] = {0.0, 0.0, 0.0};
+
+  StripSum(x[0] + b, -x[1], 1.0, sum);
+  StripSum(x[0] - b, -x[1], -1.0, sum);
+  u[0] = q / (2.0 * PETSC_PI * G) * sum[0];
+  u[1] = q / (2.0 * PETSC_PI * G) * sum[1];
+  *p   = q / PETSC_PI * sum[2];
+}
