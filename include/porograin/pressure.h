@@ -24,7 +24,8 @@ typedef struct {
   PetscReal removed;    /* part of b outside the range of a singular A, relative to ||b||; 0 otherwise. `implicit`
                            takes it away and reports the other numbers for what remains */
   PetscReal rhs_norm;   /* ||b|| [Pa] */
-  PetscBool singular;   /* no disc has a prescribed pressure */
+  PetscBool singular;   /* some discs are tied to no prescribed pressure: the mean of each island of them is kept
+                           (`explicit`: no disc at all has a prescribed pressure) */
   int       reason;     /* KSPConvergedReason; 0 for explicit */
 } PgPressureStats;
 

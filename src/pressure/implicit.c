@@ -52,20 +52,63 @@ static PetscErrorCode StoreResult(PgPressure q)
   PetscFunctionReturn(0);
 }
 
-/* A singular symmetric matrix can only produce right-hand sides without mean: takes the mean away, and tells
-   how much that was. */
+/* A singular symmetric matrix can only produce right-hand sides without mean, on each island: takes the means away, and
+   tells how much that was. */
 static PetscErrorCode MakeCompatible(PgPressure q, PetscReal norm, PetscReal *removed)
 {
   PetscScalar  sum;
+  PetscReal    square = 0.0;
   PetscInt     global;
-  MatNullSpace constant;
+  MatNullSpace space;
 
   PetscFunctionBeginUser;
-  PetscCall(VecGetSize(q->b, &global));
-  PetscCall(VecSum(q->b, &sum));
-  PetscCall(MatGetNullSpace(q->A, &constant));
-  PetscCall(MatNullSpaceRemove(constant, q->b));
-  *removed = norm > 0.0 ? PetscAbsScalar(sum) / (PetscSqrtReal((PetscReal)global) * norm) : 0.0;
+  PetscCall(MatGetNullSpace(q->A, &space));
+  if (q->whole) {
+    PetscCall(VecGetSize(q->b, &global));
+    PetscCall(VecSum(q->b, &sum));
+    PetscCall(MatNullSpaceRemove(space, q->b));
+    square = PetscSqr(PetscRealPart(sum)) / (PetscReal)global;
+  } else {
+    PetscCall(MatNullSpaceRemove(space, q->b)); /* leaves what it added in island_sum */
+    for (PetscInt i = 0; i < q->islands; i++) square += q->island_size[i] * PetscSqr(q->island_sum[i]);
+  }
+  *removed = norm > 0.0 ? PetscSqrtReal(square) / norm : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* The mean of the pressure of each island, before the solve, and given back after it. */
+static PetscErrorCode NoteMeans(PgPressure q, PetscReal **before)
+{
+  PetscFunctionBeginUser;
+  *before = NULL;
+  if (!q->islands) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(q->islands, before));
+  if (q->whole) {
+    PetscScalar sum;
+    PetscCall(VecSum(q->x, &sum));
+    (*before)[0] = PetscRealPart(sum);
+  } else {
+    PetscCall(PgPressureIslandMeans(q, q->x, *before));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode KeepMeans(PgPressure q, PetscReal **before)
+{
+  PetscFunctionBeginUser;
+  if (!q->islands) PetscFunctionReturn(0);
+  if (q->whole) {
+    PetscScalar after;
+    PetscInt    global;
+    PetscCall(VecGetSize(q->x, &global));
+    PetscCall(VecSum(q->x, &after));
+    PetscCall(VecShift(q->x, ((*before)[0] - after) / (PetscReal)global));
+  } else {
+    PetscCall(PgPressureIslandMeans(q, q->x, q->island_sum));
+    for (PetscInt i = 0; i < q->islands; i++) (*before)[i] -= q->island_sum[i];
+    PetscCall(PgPressureIslandShift(q, q->x, *before));
+  }
+  PetscCall(PetscFree(*before));
   PetscFunctionReturn(0);
 }
 
@@ -178,8 +221,7 @@ static void JudgePreconditioner(PgPressure q, PetscInt iterations, PetscBool goo
 
 static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
 {
-  PetscReal          rhs, guess, residual, rtol = 0.0, atol = 0.0, scale;
-  PetscScalar        before = 0.0, after;
+  PetscReal          rhs, guess, residual, rtol = 0.0, atol = 0.0, scale, *before;
   PetscBool          fresh, good;
   KSPConvergedReason reason;
   KSPNormType        norm;
@@ -190,8 +232,8 @@ static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
   PetscCall(VecNorm(q->b, NORM_2, &rhs));
   PetscCall(VecNorm(q->x, NORM_2, &guess));
   PetscCall(ChooseTolerance(q, rhs, guess, &rtol, &atol));
-  if (q->singular) {
-    PetscCall(VecSum(q->x, &before));
+  PetscCall(NoteMeans(q, &before));
+  if (q->islands) {
     PetscCall(MakeCompatible(q, rhs, &stats->removed));
     PetscCall(VecNorm(q->b, NORM_2, &rhs));
   }
@@ -207,12 +249,7 @@ static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
     PetscCall(Run(q, rhs, rtol, atol, &reason, &residual));
     good = (PetscBool)(reason > 0 && residual <= 10.0 * PetscMax(rtol * rhs, atol));
   }
-  if (q->singular) {
-    PetscInt global;
-    PetscCall(VecGetSize(q->x, &global));
-    PetscCall(VecSum(q->x, &after));
-    PetscCall(VecShift(q->x, (before - after) / (PetscReal)global));
-  }
+  PetscCall(KeepMeans(q, &before));
   scale = rhs > 0.0 ? rhs : 1.0;
   PetscCall(KSPGetIterationNumber(q->ksp, &stats->iterations));
   PetscCall(KSPGetNormType(q->ksp, &norm));

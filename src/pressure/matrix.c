@@ -173,21 +173,25 @@ static PetscErrorCode MakePattern(PgPressure q)
   PetscFunctionReturn(0);
 }
 
-/* What the matrix is: told to PETSc after each new pattern and when the conditions turn it singular or back. */
+/* What the matrix is: told to PETSc after each new pattern and when the conditions make it singular, or in another way,
+   or no more. */
 static PetscErrorCode Describe(PgPressure q)
 {
-  MatNullSpace constant = NULL;
+  const PetscBool definite = (PetscBool)(q->symmetric && !q->islands);
+  MatNullSpace    space    = NULL;
 
   PetscFunctionBeginUser;
   PetscCall(MatSetOption(q->A, MAT_SYMMETRIC, q->symmetric));
   PetscCall(MatSetOption(q->A, MAT_SYMMETRY_ETERNAL, q->symmetric));
-  PetscCall(MatSetOption(q->A, MAT_SPD, (PetscBool)(q->symmetric && !q->singular)));
-  PetscCall(MatSetOption(q->A, MAT_SPD_ETERNAL, (PetscBool)(q->symmetric && !q->singular)));
-  if (q->singular) PetscCall(MatNullSpaceCreate(q->comm, PETSC_TRUE, 0, NULL, &constant));
-  PetscCall(MatSetNullSpace(q->A, constant));
-  PetscCall(MatSetTransposeNullSpace(q->A, q->symmetric ? constant : NULL));
-  PetscCall(MatNullSpaceDestroy(&constant));
-  q->matrix_singular = q->singular;
+  PetscCall(MatSetOption(q->A, MAT_SPD, definite));
+  PetscCall(MatSetOption(q->A, MAT_SPD_ETERNAL, definite));
+  if (q->islands) PetscCall(MatNullSpaceCreate(q->comm, q->whole, 0, NULL, &space));
+  if (q->islands && !q->whole) PetscCall(MatNullSpaceSetFunction(space, PgPressureRemoveIslandMeans, q));
+  PetscCall(MatSetNullSpace(q->A, space));
+  PetscCall(MatSetTransposeNullSpace(q->A, q->symmetric ? space : NULL));
+  PetscCall(MatNullSpaceDestroy(&space));
+  q->matrix_islands = q->islands;
+  q->matrix_whole   = q->whole;
   PetscFunctionReturn(0);
 }
 
@@ -243,6 +247,7 @@ PetscErrorCode PgPressureAssemble(PgPressure q)
   const PetscBool fresh = (PetscBool)(!q->A || q->resize);
 
   PetscFunctionBeginUser;
+  PetscCall(PgPressureFindIslands(q));
   if (fresh) {
     PetscCall(KSPReset(q->ksp)); /* its vectors have the old size */
     PetscCall(CreateMatrix(q));
@@ -254,7 +259,7 @@ PetscErrorCode PgPressureAssemble(PgPressure q)
     /* rows changed places: what was built belongs to other discs. With new pairs alone it still fits, roughly. */
     if (q->new_numbers) q->stale = PETSC_TRUE;
     PetscCall(Describe(q));
-  } else if (q->singular != q->matrix_singular) {
+  } else if (q->islands != q->matrix_islands || q->whole != q->matrix_whole) {
     PetscCall(Describe(q));
     q->stale = PETSC_TRUE;
   }

@@ -53,6 +53,10 @@ PetscErrorCode PgPressureCreate(PgParticles particles, PgNeighbors neighbors, Pg
                                   PG_FIELD_MIGRATE | PG_FIELD_HALO | PG_FIELD_RESTART};
   const PgFieldInfo prescribed = {"pressure_prescribed", 1, "Pa", "prescribed pressure, where there is one",
                                   PG_FIELD_MIGRATE | PG_FIELD_HALO | PG_FIELD_RESTART};
+  const PgFieldInfo island     = {"pressure_island", 1, "1",
+                                  "id of one of the discs that share a level of pressure, the same for all of them; -1 "
+                                      "where a prescribed pressure sets the level",
+                                  PG_FIELD_HALO};
   PgPressure        q;
 
   PetscFunctionBeginUser;
@@ -65,6 +69,7 @@ PetscErrorCode PgPressureCreate(PgParticles particles, PgNeighbors neighbors, Pg
   PetscCall(PgParticlesRegisterField(particles, &p, &q->p));
   PetscCall(PgParticlesRegisterField(particles, &fixed, &q->fixed));
   PetscCall(PgParticlesRegisterField(particles, &prescribed, &q->prescribed));
+  PetscCall(PgParticlesRegisterField(particles, &island, &q->island_label));
   PetscCall(PgParticlesFindField(particles, "volume", &q->volume));
   q->coefficient            = -1;
   q->reference              = 1e5;
@@ -216,6 +221,7 @@ PetscErrorCode PgPressureDestroy(PgPressure *pressure)
   if (!q) PetscFunctionReturn(0);
   PetscCall(KSPDestroy(&q->ksp));
   PetscCall(PgPressureDestroyMatrix(q));
+  PetscCall(PgPressureDestroyIslands(q));
   PetscCall(PetscFree(q->entry_at));
   PetscCall(PetscFree(q->diagonal_at));
   PetscCall(PetscFree(q->weight));
@@ -339,7 +345,7 @@ static PetscErrorCode Solve(PgPressure q, const PetscReal Z[], PgPressureStats *
 {
   PetscFunctionBeginUser;
   PetscCall(PetscMemzero(stats, sizeof *stats));
-  stats->singular = q->singular;
+  stats->singular = q->ops.kind == PG_PRESSURE_IMPLICIT ? (PetscBool)(q->islands > 0) : q->singular;
   PetscCall(PgPressureComputeSource(q, Z));
   PetscCall((*q->ops.solve)(q, stats));
   if (q->dump[0] && (q->dump_every ? q->solves % q->dump_every == 0 : q->solves == 0)) PetscCall(PgPressureDump(q));

@@ -23,7 +23,7 @@ struct PgPressure_s {
   PgNeighbors neighbors;
   PgSph       sph;
   MPI_Comm    comm;
-  PgField     p, fixed, prescribed, volume, coefficient; /* coefficient: -1 until it is used */
+  PgField     p, fixed, prescribed, island_label, volume, coefficient; /* coefficient: -1 until it is used */
 
   /* settings */
   PgPressureOps ops;
@@ -48,11 +48,20 @@ struct PgPressure_s {
   PetscReal      *lift;                 /* (rows) sum over fixed b of w_ab*(prescribed_b - reference) [Pa] */
   PetscReal      *next;                 /* (rows) result of a sweep [Pa] */
   PetscReal       smallest, largest;    /* |diagonal|, over all discs */
-  PetscBool       singular, symmetric;
+  PetscBool       singular, symmetric;  /* singular: no disc has a prescribed pressure */
   PetscInt        neighbors_revision, particles_revision; /* of the weights */
   PetscInt       *row_id, known, known_size; /* ids of the owned discs when last compared, their number, capacity */
   PetscInt        solves;                    /* since the start of the run, also before a restart */
   PgPressureWork  work;
+
+  /* islands: discs that nothing ties to a prescribed pressure */
+  PetscInt   islands;                  /* on all ranks; 0: the matrix is regular */
+  PetscBool  whole;                    /* one island has all discs */
+  PetscInt  *island, *island_parent;   /* (island_capacity) of each owned disc, -1: of none; scratch */
+  PetscInt  *tie;                      /* (island_capacity) entry that ties an owned disc to a fixed one, -1: none */
+  PetscInt   island_capacity;          /* owned discs */
+  PetscBool  tied;                     /* all free discs are, on all ranks: there are no islands */
+  PetscReal *island_size, *island_sum; /* (islands) discs, of all ranks; scratch */
 
   /* the matrix */
   Mat       A;
@@ -61,7 +70,8 @@ struct PgPressure_s {
   PetscInt  entry_size, diagonal_size;      /* capacities */
   PetscBool new_lists, new_numbers, resize; /* since the pattern was made; the same on all ranks */
   PetscBool matrix_current, source_current, rhs_current;
-  PetscBool matrix_singular; /* null space attached */
+  PetscInt  matrix_islands; /* null space attached */
+  PetscBool matrix_whole;
   PetscInt  patterns, fills;
   PetscInt  built_fills; /* fills when the preconditioner was built */
 
@@ -91,6 +101,23 @@ PETSC_INTERN PetscErrorCode PgPressureAssemble(PgPressure pressure);
 /* b from the sources, before anything is removed from it. */
 PETSC_INTERN PetscErrorCode PgPressureFillRhs(PgPressure pressure);
 PETSC_INTERN PetscErrorCode PgPressureDestroyMatrix(PgPressure pressure);
+
+/* islands.c */
+/* From the weights and conditions of the present geometry. Without a symmetric matrix only no prescribed pressure at
+   all counts. Collective. */
+PETSC_INTERN PetscErrorCode PgPressureFindIslands(PgPressure pressure);
+PETSC_INTERN PetscErrorCode PgPressureDestroyIslands(PgPressure pressure);
+/* Mean of v on each island; a value of each island added to v there. Collective, not collective. */
+PETSC_INTERN PetscErrorCode PgPressureIslandMeans(PgPressure pressure, Vec v, PetscReal mean[]);
+PETSC_INTERN PetscErrorCode PgPressureIslandShift(PgPressure pressure, Vec v, const PetscReal shift[]);
+/* For MatNullSpaceSetFunction(). */
+PETSC_INTERN PetscErrorCode PgPressureRemoveIslandMeans(MatNullSpace space, Vec v, void *pressure);
+
+/* ties.c */
+/* Ties what can be tied, and sets tied. Collective. */
+PETSC_INTERN PetscErrorCode PgPressureTie(PgPressure pressure);
+/* Whether the owned discs are still tied with the present weights; lists and numbers of discs are what they were. */
+PETSC_INTERN PetscBool PgPressureTiesHold(PgPressure pressure, const PetscReal fixed[]);
 
 /* dump.c: A, b, x as PETSC binary. *written is false when the file cannot be opened. */
 PETSC_INTERN PetscErrorCode PgPressureWriteSystem(PgPressure pressure, const char file[], PetscBool *written);

@@ -156,7 +156,8 @@ PetscErrorCode PgPressureCheckSolver(PgPressure q)
 static PetscErrorCode ChooseCoarseSolver(PgPressure q, PC pc)
 {
 #if defined(PETSC_HAVE_HYPRE)
-  const char *const option = "-pressure_pc_hypre_boomeramg_relax_type_coarse";
+  const char *const option   = "-pressure_pc_hypre_boomeramg_relax_type_coarse";
+  const PetscBool   singular = (PetscBool)(q->islands > 0);
   PetscBool         hypre, boomeramg = PETSC_FALSE, users;
 
   PetscFunctionBeginUser;
@@ -167,11 +168,11 @@ static PetscErrorCode ChooseCoarseSolver(PgPressure q, PC pc)
     PetscCall(PetscStrcmp(name, "boomeramg", &boomeramg));
   }
   PetscCall(PetscOptionsHasName(NULL, NULL, option, &users));
-  if (!boomeramg || users || q->singular == q->coarse_is_singular) PetscFunctionReturn(0);
-  PetscCall(PetscOptionsSetValue(NULL, option, q->singular ? "symmetric-SOR/Jacobi" : "Gaussian-elimination"));
+  if (!boomeramg || users || singular == q->coarse_is_singular) PetscFunctionReturn(0);
+  PetscCall(PetscOptionsSetValue(NULL, option, singular ? "symmetric-SOR/Jacobi" : "Gaussian-elimination"));
   PetscCall(PCSetFromOptions(pc));
   PetscCall(PetscOptionsClearValue(NULL, option));
-  q->coarse_is_singular = q->singular;
+  q->coarse_is_singular = singular;
   PetscFunctionReturn(0);
 #else
   PetscFunctionBeginUser;

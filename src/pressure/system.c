@@ -4,7 +4,7 @@
 #include "pressureimpl.h"
 
 /* What all ranks must know of each other, as one maximum. */
-enum { ANY_FIXED, BAD_DISC, SMALLEST, LARGEST, NEW_LISTS, NEW_NUMBERS, NEW_SIZE, FACTS };
+enum { ANY_FIXED, BAD_DISC, SMALLEST, LARGEST, NEW_LISTS, NEW_NUMBERS, NEW_SIZE, UNTIED, FACTS };
 
 static PetscErrorCode Reserve(PgPressure q)
 {
@@ -79,7 +79,7 @@ static PetscErrorCode CompareRows(PgPressure q, PetscBool *changed)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Agree(PgPressure q, PetscReal fact[FACTS])
+static PetscErrorCode Agree(PgPressure q, const PetscReal fixed[], PetscReal fact[FACTS])
 {
   PetscInt  lists, numbers, rows = q->owned;
   PetscBool renumbered = PETSC_FALSE;
@@ -92,12 +92,14 @@ static PetscErrorCode Agree(PgPressure q, PetscReal fact[FACTS])
   fact[NEW_LISTS]       = lists != q->neighbors_revision || numbers != q->particles_revision;
   fact[NEW_NUMBERS]     = renumbered;
   fact[NEW_SIZE]        = rows != q->owned;
+  fact[UNTIED]          = !q->tied || fact[NEW_LISTS] > 0.0 || !PgPressureTiesHold(q, fixed);
   q->neighbors_revision = lists;
   q->particles_revision = numbers;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, fact, FACTS, MPIU_REAL, MPI_MAX, q->comm));
   q->new_lists   = (PetscBool)(q->new_lists || fact[NEW_LISTS] > 0.0);
   q->new_numbers = (PetscBool)(q->new_numbers || fact[NEW_NUMBERS] > 0.0);
   q->resize      = (PetscBool)(q->resize || fact[NEW_SIZE] > 0.0);
+  q->tied        = (PetscBool)(fact[UNTIED] == 0.0);
   q->singular    = (PetscBool)(fact[ANY_FIXED] == 0.0);
   q->smallest    = -fact[SMALLEST];
   q->largest     = fact[LARGEST];
@@ -107,7 +109,7 @@ static PetscErrorCode Agree(PgPressure q, PetscReal fact[FACTS])
 PetscErrorCode PgPressureComputeWeights(PgPressure q, const PetscReal kappa[])
 {
   PgSphCoefficients c;
-  PetscReal        *volume, *fixed, fact[FACTS] = {0.0, -1.0, -PETSC_MAX_REAL, 0.0, 0.0, 0.0, 0.0};
+  PetscReal        *volume, *fixed, fact[FACTS] = {0.0, -1.0, -PETSC_MAX_REAL, 0.0, 0.0, 0.0, 0.0, 0.0};
   const PetscInt   *id;
 
   PetscFunctionBeginUser;
@@ -122,7 +124,7 @@ PetscErrorCode PgPressureComputeWeights(PgPressure q, const PetscReal kappa[])
   PetscCall(Reserve(q));
   WeighRows(q, c.laplacian, volume, kappa);
   Inspect(q, fixed, kappa, id, fact);
-  PetscCall(Agree(q, fact));
+  PetscCall(Agree(q, fixed, fact));
   if (fact[BAD_DISC] >= 0.0)
     PgRunError(
         q->comm,
