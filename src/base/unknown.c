@@ -116,6 +116,10 @@ static PetscErrorCode Refuse(MPI_Comm comm, const char name[], const char value[
     PetscCall(PgReport(comm, "option -%s%s%s is not read in this run, it needs %s", name, gap, value, exact->needs));
     PetscFunctionReturn(0);
   }
+  if (exact && exact != pattern && !exact->active) {
+    PetscCall(PgReport(comm, "option -%s%s%s is of no use to this case", name, gap, value));
+    PetscFunctionReturn(0);
+  }
   nearest = PgKnownNearest(name);
   if (!nearest && pattern)
     PetscCall(PgReport(comm, "unknown option -%s%s%s: misspelt, or of a solver that this run does not use", name, gap,

@@ -15,9 +15,8 @@ static PetscErrorCode ReadOptions(PgUp up)
   PetscCall(up->problem->create(up, PetscOptionsObject));
   PetscOptionsEnd();
   {
-    const PetscInt  cells[2] = {10, 10};
-    const PetscReal low[2]   = {0.0, 0.0};
-    PetscCall(PgFemSetBox(up->fem, cells, low, up->size));
+    const PetscReal low[2] = {0.0, 0.0};
+    PetscCall(PgFemSetBox(up->fem, up->problem->cells, low, up->size));
   }
   PetscCall(PgFemSetFromOptions(up->fem));
   PetscFunctionReturn(0);
@@ -49,7 +48,7 @@ PetscErrorCode PgUpCreateProblem(MPI_Comm comm, const PgUpProblem *problem, PgUp
   PgUp up;
 
   PetscFunctionBeginUser;
-  PetscCall(PgCaseDefaults(problem->defaults));
+  if (problem->defaults[0]) PetscCall(PgCaseDefaults(problem->defaults));
   PetscCall(PetscNew(&up));
   up->comm    = comm;
   up->problem = problem;

@@ -29,6 +29,7 @@ struct PgUp_s {
 
 struct PgUpProblem_s {
   const char *name, *defaults;
+  PetscInt    cells[2];
   PetscReal   size[2], load, width;
   PetscErrorCode (*create)(PgUp up, PetscOptionItems *PetscOptionsObject); /* reads options */
   PetscErrorCode (*conditions)(PgUp up);

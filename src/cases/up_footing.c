@@ -73,8 +73,13 @@ static PetscErrorCode Settlement(PgUp up, PetscReal *settlement)
   PetscFunctionReturn(0);
 }
 
-const PgUpProblem PgUpFooting = {"up_footing", "-up_cells 32,32 -up_permeability 0 -up_poisson 0.3 -up_bulk_water 2.2e9",
-                                 {8.0, 8.0},   1e4,
-                                 1.0,          Create,
-                                 Conditions,   Prepare,
-                                 Settlement};
+const PgUpProblem PgUpFooting = {.name       = "up_footing",
+                                 .defaults   = "-up_permeability 0 -up_poisson 0.3 -up_bulk_water 2.2e9",
+                                 .cells      = {32, 32},
+                                 .size       = {8.0, 8.0},
+                                 .load       = 1e4,
+                                 .width      = 1.0,
+                                 .create     = Create,
+                                 .conditions = Conditions,
+                                 .prepare    = Prepare,
+                                 .settlement = Settlement};

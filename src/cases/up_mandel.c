@@ -56,5 +56,13 @@ static PetscErrorCode Settlement(PgUp up, PetscReal *settlement)
   PetscFunctionReturn(0);
 }
 
-const PgUpProblem PgUpMandel = {"up_mandel", "-up_cells 20,20", {1.0, 1.0}, 1e4,       0.0,
-                                Create,      Conditions,        Prepare,    Settlement};
+const PgUpProblem PgUpMandel = {.name       = "up_mandel",
+                                .defaults   = "",
+                                .cells      = {20, 20},
+                                .size       = {1.0, 1.0},
+                                .load       = 1e4,
+                                .width      = 0.0,
+                                .create     = Create,
+                                .conditions = Conditions,
+                                .prepare    = Prepare,
+                                .settlement = Settlement};

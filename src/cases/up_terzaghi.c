@@ -56,5 +56,13 @@ static PetscErrorCode Settlement(PgUp up, PetscReal *settlement)
   PetscFunctionReturn(0);
 }
 
-const PgUpProblem PgUpTerzaghi = {"up_terzaghi", "-up_cells 2,20", {0.1, 1.0}, 1e4,       0.0,
-                                  Create,        Conditions,       Prepare,    Settlement};
+const PgUpProblem PgUpTerzaghi = {.name       = "up_terzaghi",
+                                  .defaults   = "",
+                                  .cells      = {2, 20},
+                                  .size       = {0.1, 1.0},
+                                  .load       = 1e4,
+                                  .width      = 0.0,
+                                  .create     = Create,
+                                  .conditions = Conditions,
+                                  .prepare    = Prepare,
+                                  .settlement = Settlement};
