@@ -71,7 +71,7 @@ refused '-pressure explicit does not solve it' -case pressure_mms -pressure expl
 refused 'the corrected Laplacian is not symmetric' -case pressure_mms -mms_sides natural -sph_operators corrected
 for option in '-dt 1e-6' '-fluid ns' '-end_time 1' '-checkpoint run.pgc' '-gravity 0,-9.81' '-dem_k_n 1e8'; do
   # shellcheck disable=SC2086
-  refused "option ${option%% *} .*(not read in this run|did you mean)" -case pressure_mms $option
+  refused "option ${option%% *} .*(not read in this run|of no use to this case)" -case pressure_mms $option
 done
 expect_error 2 "the name must end in .h5" "$POROGRAIN" -case operator_mms -output refused.txt
 expect_error 4 'option -output: cannot write no/such/refused.h5' "$POROGRAIN" -case operator_mms -output no/such/refused.h5
