@@ -32,3 +32,11 @@ while IFS='|' read -r case quantity; do
   grep -Fxq -- "$case|$quantity" in_table || fail "no row '$quantity' in the table of $case: run tests/support/verification_table.sh"
 done <from_tests
 echo "$count quantities of $(wc -l <cases) cases"
+
+# Each break replaces something in the sources as they are, and is a row of the table of breaks, and the other way round.
+bash "$SOURCE_DIR/tests/support/breaks.sh" check || fail 'tests/support/breaks.sh has lines that break nothing'
+sed -n "/<<'LINES'/,/^LINES/p" "$SOURCE_DIR/tests/support/breaks.sh" | sed '1d; $d' |
+  sed -E 's/^([^ ]*) ;.*; ([^;]*)$/\1|\2/' | sort >lines
+sed -nE 's/^\| `([^`]*)` \| (.*) \| yes.*$/\1|\2/p' "$table" | sort >rows
+[ "$(wc -l <rows)" -gt 20 ] || fail "only $(wc -l <rows) breaks in $table"
+diff lines rows >&2 || fail 'the breaks of tests/support/breaks.sh are not those of the table'

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# breaks.sh check: says which lines of the table below replace nothing any more, since the program has changed; status 2 then.
 # breaks.sh [FOLDER [PATTERN]]: breaks the program on purpose, once for each line of the table below, and says whether the
 # verification notices. Works on a copy of the sources, in FOLDER (default: a new one), and with PATTERN on the lines that match it only.
 # Status 1 if a break goes unnoticed.
@@ -6,8 +7,6 @@
 # A line: test of tests/verify (run on one rank) ; file ; sed expression ; what that means
 set -euo pipefail
 source=$(cd "$(dirname "$0")/../.." && pwd)
-folder=${1:-$(mktemp -d)}
-pattern=${2:-.}
 
 table() {
   cat <<'LINES'
@@ -21,12 +20,12 @@ dem_energy ; src/dem/demimpl.h ; s/(0.5 \* (before + after) + viscous) \* slip/(
 dem_panel ; src/dem/integrate.c ; s/x\[i\] += dt \* v\[i\]/x[i] += dt * v[i] * (1 + 1e4 * dt)/ ; positions advance by 1e4 dt of their way too far, an error of first order
 dem_lammps ; src/dem/contact_loop.c ; s/ny) + spin;/ny) + 0.9999 * spin;/ ; sliding by rotation 0.01 % less
 dem_lammps ; src/dem/observables.c ; s/contact = value\[0\];/contact = 1.00001 * value[0];/ ; load 0.001 % higher, discs as they are
-operator_mms ; src/sph/correction.c ; s/(m\[3\] \* gx - m\[1\] \* gy)/(m[3] * gx + m[1] * gy)/ ; wrong sign in the inverse of the correction matrix
+operator_mms ; src/sph/correction.c ; s/{my\[1\], -mx\[1\]}/{my[1], mx[1]}/ ; wrong sign in the inverse of the correction matrix
 operator_mms ; src/sph/coefficient_loop.c ; s/= 2.0 \* f \* r2/= 2.01 * f * r2/ ; weights of the Laplacian 0.5 % larger
 pressure_mms ; src/sph/coefficient_loop.c ; s/= 2.0 \* f \* r2/= 2.01 * f * r2/ ; weights of the Laplacian 0.5 % larger
 predictor ; src/pore/step.c ; s/b00 = 1.0 + dt_f \* g\[0\]/b00 = 1.0 + 0.99 * dt_f * g[0]/ ; matrix B 1 % off in one place
 water_bed_darcy ; src/pore/darcy.c ; s/s.v\[i\] - k_p \*/s.v[i] - 1.001 * k_p */ ; Darcy velocity 0.1 % larger
-water_bed_ns ; src/pore/drag.c ; s/1\.75 \* (1\.0 - n)/1.76 * (1.0 - n)/ ; quadratic term of Ergun's law 0.6 % larger
+water_bed_ns ; src/pore/drag.c ; s/1\.75 \*/1.76 */ ; quadratic term of Ergun's law 0.6 % larger
 water_bed_ns ; src/pore/navier_stokes.c ; s|pore->rho_f / (pore->theta \* dt_f)|pore->rho_f / dt_f| ; theta left out of Eq. 50
 water_column ; src/pore/navier_stokes.c ; s/if (pressure) f -= V_p/if (pressure) f -= 0.999 * V_p/ ; buoyancy 0.1 % smaller
 water_column ; src/pore/darcy.c ; s/(n + (pressure ? 1.0 - n : 0.0))/n/ ; seepage force on a plate without the pressure gradient
@@ -42,6 +41,23 @@ water_panel ; src/simulation/step.c ; s/dt_f = sim->dt \* (PetscReal)sim->fluid_
 LINES
 }
 
+# FILE EXPRESSION: what the file becomes
+broken() { sed -e "$(sed 's/^ *//; s/ *$//' <<<"$2")" "$1"; }
+
+if [ "${1:-}" = check ]; then
+  stale=0
+  while IFS=';' read -r test file rest; do
+    file=${file// /}
+    if broken "$source/$file" "${rest%;*}" | cmp -s "$source/$file" -; then
+      echo "$file: nothing replaced by ${rest%;*}" >&2
+      stale=2
+    fi
+  done < <(table)
+  exit $stale
+fi
+
+folder=${1:-$(mktemp -d)}
+pattern=${2:-.}
 mkdir -p "$folder/source" "$folder/log"
 for part in CMakeLists.txt include src tests options docs; do cp -R "$source/$part" "$folder/source/"; done
 for part in "$source"/*; do [ -e "$folder/source/$(basename "$part")" ] || [ -d "$part/CMakeFiles" ] || cp -R "$part" "$folder/source/"; done
@@ -58,7 +74,7 @@ while IFS=';' read -r test file rest; do
   test=${test// /} file=${file// /}
   number=$((number + 1))
   cp "$folder/source/$file" "$folder/whole"
-  sed -i -e "$(sed 's/^ *//; s/ *$//' <<<"$expression")" "$folder/source/$file"
+  broken "$folder/whole" "$expression" >"$folder/source/$file"
   if cmp -s "$folder/whole" "$folder/source/$file"; then
     echo "$file: nothing replaced by $expression" >&2
     exit 2
