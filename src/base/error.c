@@ -11,11 +11,19 @@ static PetscBool print_stack          = PETSC_FALSE;
 static PetscBool began_mpi            = PETSC_FALSE;
 static int       status_without_error = 0;
 
+/* Which of our programs this is; other programs that use the library speak for it. */
 static void PrintError(const char *message)
 {
+  static const char library[]                = "porograin";
+  char              path[PETSC_MAX_PATH_LEN] = "";
+  const char       *name;
+
+  (void)PetscGetProgramName(path, sizeof path);
+  name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+  if (strncmp(name, library, strlen(library))) name = library;
   PgTerminalClear();
   (void)fflush(stdout);
-  (void)fprintf(stderr, "porograin: error: %s\n", message);
+  (void)fprintf(stderr, "%s: error: %s\n", name, message);
   (void)fflush(stderr);
 }
 

@@ -34,7 +34,9 @@ static PetscErrorCode WriteLoad(PgPlot plot, const PgPlotSource *source, PetscBo
   PetscFunctionBeginUser;
   PetscCall(PgPlotSourceHistory(source, "displacement", &n, &displacement));
   PetscCall(PgPlotSourceHistory(source, "load", &m, &load));
-  *written = (PetscBool)(n > 1 && n == m);
+  *written = PETSC_FALSE;
+  for (PetscInt i = 1; i < n && n == m; i++)
+    if (displacement[i] != displacement[0]) *written = PETSC_TRUE;
   if (*written) {
     PetscCall(PetscSNPrintf(name, sizeof name, "%s-load.dat", source->stem));
     PetscCall(PgPlotFolderCreateFile(&plot->folder, name, &file));
@@ -43,7 +45,7 @@ static PetscErrorCode WriteLoad(PgPlot plot, const PgPlotSource *source, PetscBo
       (void)fprintf(file, "%.6g %.6g\n", 1e3 * (double)displacement[i], 1e-3 * (double)load[i]);
     PetscCall(PgPlotFolderCloseFile(&plot->folder, name, &file));
   } else {
-    PetscCall(PetscPrintf(plot->comm, "note: %s has no history of load and displacement: it is not in load.gp\n",
+    PetscCall(PetscPrintf(plot->comm, "note: %s has no history of a load over a displacement: it is not in load.gp\n",
                           source->file));
   }
   PetscCall(PetscFree(displacement));

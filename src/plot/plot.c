@@ -160,6 +160,9 @@ static PetscErrorCode Choose(PgPlot plot, PgPlotSource *source)
   for (PetscInt s = 0; s <= last; s++)
     if (PetscAbsReal(source->time[s] - plot->time) < PetscAbsReal(source->time[source->chosen] - plot->time))
       source->chosen = s;
+  if (PetscAbsReal(source->time[source->chosen] - plot->time) > 1e-3 * source->time[last])
+    PetscCall(PetscPrintf(plot->comm, "note: %s has no snapshot at %.6g s, the nearest is drawn, of %.6g s\n",
+                          source->file, (double)plot->time, (double)source->time[source->chosen]));
   PetscFunctionReturn(0);
 }
 

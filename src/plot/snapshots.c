@@ -113,7 +113,7 @@ static PetscErrorCode SheetDestroy(Sheet *s)
 }
 
 #define MARGIN 0.02
-enum { MOST_SVG = 50000 }; /* discs: more would make a hundred megabytes */
+enum { MOST_SVG = 2500 }; /* discs of a picture: gnuplot writes 2 to 4 kB for each */
 
 /* Axes in mm, the same scale on both, `low` to `high` and a margin. */
 static void Axes(FILE *f, const PetscReal low[2], const PetscReal high[2])
@@ -137,6 +137,56 @@ static void DrawDiscs(FILE *f, const char data[], PetscInt column, PetscInt disc
                 is_signed && discs <= 20000 ? "border lc rgb '#b4b4b4'" : "noborder");
 }
 
+/* Labels of a colour bar: every `step`, with as many digits as tell neighbours apart. */
+typedef struct {
+  PetscReal step;
+  char      format[16];
+  PetscInt  length; /* characters of the longest */
+} BarLabels;
+
+static BarLabels LabelsOf(const PgPlotRange *range, PetscReal step)
+{
+  const PetscReal most   = PetscMax(PetscAbsReal(range->low), PetscAbsReal(range->high));
+  const int       finest = (int)PetscFloorReal(PetscLog10Real(step) + 1e-9);
+  const int       first  = most > 0.0 ? (int)PetscFloorReal(PetscLog10Real(most)) : finest;
+  BarLabels       labels;
+  char            text[2][64];
+
+  labels.step = step;
+  if (first < 6 && finest > -5)
+    (void)snprintf(labels.format, sizeof labels.format, "%%.%df", PetscMax(0, -finest));
+  else
+    (void)snprintf(labels.format, sizeof labels.format, "%%.%de", PetscMax(0, first - finest));
+  for (int end = 0; end < 2; end++)
+    (void)snprintf(text[end], sizeof *text, labels.format, (double)(end ? range->high : range->low)); /* NOLINT */
+  labels.length = (PetscInt)PetscMax(strlen(text[0]), strlen(text[1]));
+  return labels;
+}
+
+static PetscReal BarStep(const Sheet *s, PetscInt f)
+{
+  const PgPlotRange *range = &s->range[f];
+
+  if (s->field[f]->drawing != PG_PLOT_CONTOURS) return PgPlotRound((range->high - range->low) / 6.0);
+  return (s->colours[f] > 12 ? 2.0 : 1.0) * range->high / (PetscReal)s->colours[f];
+}
+
+/* Width that the labels of a colour bar need [pixels]. */
+static PetscReal BarWidth(const Sheet *s, PetscInt f)
+{
+  const PetscReal character = 8.0; /* of a digit in 11 points, and a little */
+
+  if (s->field[f]->drawing == PG_PLOT_STREAMLINES) return 0.0;
+  return character * (PetscReal)LabelsOf(&s->range[f], BarStep(s, f)).length;
+}
+
+static void LabelBar(FILE *file, const PgPlotRange *range, PetscReal step)
+{
+  const BarLabels labels = LabelsOf(range, step);
+
+  (void)fprintf(file, "set cbtics %.5g\nset format cb '%s'\n", (double)labels.step, labels.format);
+}
+
 static PetscErrorCode DrawField(PgScript *script, const Sheet *s, PetscInt f)
 {
   const PgPlotField *field = s->field[f];
@@ -155,15 +205,15 @@ static PetscErrorCode DrawField(PgScript *script, const Sheet *s, PetscInt f)
         "  '%s-arrows.dat' using 1:2 with filledcurves closed fs solid 1.0 noborder lc rgb '#1f3b73' notitle\n",
         data, s->base, s->base);
   } else if (field->drawing == PG_PLOT_CONTOURS) {
-    const PetscReal tics = range->high / (PetscReal)s->colours[f];
     PetscCall(PgScriptPalette(script, PETSC_FALSE, s->colours[f], range));
-    (void)fprintf(file, "set cbtics %.5g\n", (double)(s->colours[f] > 12 ? 2 * tics : tics));
+    LabelBar(file, range, BarStep(s, f));
     (void)fprintf(file,
                   "plot '%s-grid.dat' using 1:2:3 with image notitle, \\\n"
-                  "  '%s-contours.dat' using 1:2 with lines lc rgb '#404040' lw 0.5 notitle\nset cbtics autofreq\n",
+                  "  '%s-contours.dat' using 1:2 with lines lc rgb '#404040' lw 0.5 notitle\n",
                   s->base, s->base);
   } else {
     PetscCall(PgScriptPalette(script, field->is_signed, 0, range));
+    LabelBar(file, range, BarStep(s, f));
     DrawDiscs(file, data, s->column[f], s->discs.count, field->is_signed);
   }
   PetscFunctionReturn(0);
@@ -218,7 +268,8 @@ static PetscErrorCode Single(Sheet *s, PetscInt f)
   PetscFunctionBeginUser;
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-%s", s->base, s->field[f]->name));
   Pixels(s->discs.low, s->discs.high, 600.0, pixels);
-  PetscCall(PgScriptBegin(s->plot, name, pixels[0] + 220.0, pixels[1] + 140.0, png_only, &script));
+  PetscCall(PgScriptBegin(s->plot, name, pixels[0] + 160.0 + PetscMax(60.0, BarWidth(s, f)), pixels[1] + 140.0,
+                          png_only, &script));
   PetscCall(PgScriptPicture(&script));
   Axes(script.file, s->discs.low, s->discs.high);
   (void)fprintf(script.file, "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\n");
@@ -229,12 +280,12 @@ static PetscErrorCode Single(Sheet *s, PetscInt f)
 }
 
 /* Places on a sheet, in pixels from its upper left corner: cells of equal size, each with room for the labels of
-   its axes on the left and below, a title above, and a colour bar on the right. */
-enum { LEFT = 82, RIGHT = 84, ABOVE = 50, BELOW = 62, HEAD = 34 };
+   its axes on the left and below, a title above, and a colour bar with its labels (`bar`) on the right. */
+enum { LEFT = 82, RIGHT = 44, ABOVE = 50, BELOW = 62, HEAD = 34 };
 
-static void Place(FILE *file, PetscInt cell, PetscInt columns, PetscInt rows, const PetscReal pixels[2])
+static void Place(FILE *file, PetscInt cell, PetscInt columns, PetscInt rows, const PetscReal pixels[2], PetscReal bar)
 {
-  const PetscReal cw = pixels[0] + LEFT + RIGHT, ch = pixels[1] + ABOVE + BELOW;
+  const PetscReal cw = pixels[0] + LEFT + RIGHT + bar, ch = pixels[1] + ABOVE + BELOW;
   const PetscReal width = cw * (PetscReal)columns, height = ch * (PetscReal)rows + HEAD;
   const PetscInt  row = cell / columns, column = cell % columns;
   const PetscReal left = cw * (PetscReal)column + LEFT, top = HEAD + ch * (PetscReal)row + ABOVE;
@@ -253,14 +304,20 @@ static void Place(FILE *file, PetscInt cell, PetscInt columns, PetscInt rows, co
 /* In the last cell, when it is free: where on the curve of the load the snapshot is. */
 static PetscErrorCode LoadCell(const Sheet *s, FILE *file)
 {
-  PetscReal displacement;
+  PetscReal displacement, *all, most = 0.0;
   PetscBool known;
+  PetscInt  n;
 
   PetscFunctionBeginUser;
   PetscCall(PgPlotDisplacement(s->source, s->source->time[s->snapshot], &displacement, &known));
-  (void)fprintf(file, "set size noratio\nset xrange [0:*]\nset autoscale xfixmax\nset yrange [*:*]\nset xtics "
-                      "autofreq\nset ytics autofreq\n"
-                      "set title \"load [kN/m]\\n{/*0.85 }\"\nset xlabel 'displacement [mm]'\nset ylabel ''\n");
+  PetscCall(PgPlotSourceHistory(s->source, "displacement", &n, &all));
+  for (PetscInt i = 0; i < n; i++) most = PetscMax(most, 1e3 * all[i]);
+  PetscCall(PetscFree(all));
+  (void)fprintf(
+      file,
+      "set size noratio\nset xrange [0:*]\nset autoscale xfixmax\nset yrange [*:*]\nset xtics %.4g\n"
+      "set ytics autofreq\nset title \"load [kN/m]\\n{/*0.85 }\"\nset xlabel 'displacement [mm]'\nset ylabel ''\n",
+      (double)(most > 0.0 ? PgPlotRound(most / 5.0) : 1.0));
   if (known)
     (void)fprintf(file, "set arrow from first %.6g,graph 0 to first %.6g,graph 1 nohead dt 2 lc rgb '#888888'\n",
                   1e3 * (double)displacement, 1e3 * (double)displacement);
@@ -273,22 +330,23 @@ static PetscErrorCode All(Sheet *s)
 {
   const PetscInt  cells = s->fields + (s->source->load && s->fields % 4), columns = PetscMin(4, cells);
   const PetscInt  rows     = (cells + columns - 1) / columns;
-  const PetscBool png_only = (PetscBool)(s->discs.count > MOST_SVG);
+  const PetscBool png_only = (PetscBool)(s->discs.count * s->fields > MOST_SVG);
   PgScript        script;
-  PetscReal       pixels[2];
+  PetscReal       pixels[2], bar = 40.0;
   char            name[256], quoted[300];
 
   PetscFunctionBeginUser;
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-fields", s->base));
   Pixels(s->discs.low, s->discs.high, 380.0, pixels);
-  PetscCall(PgScriptBegin(s->plot, name, (pixels[0] + LEFT + RIGHT) * (PetscReal)columns,
+  for (PetscInt f = 0; f < s->fields; f++) bar = PetscMax(bar, BarWidth(s, f));
+  PetscCall(PgScriptBegin(s->plot, name, (pixels[0] + LEFT + RIGHT + bar) * (PetscReal)columns,
                           (pixels[1] + ABOVE + BELOW) * (PetscReal)rows + HEAD, png_only, &script));
   PetscCall(PgScriptPicture(&script));
   (void)fprintf(script.file, "set multiplot title '%s: %s' noenhanced\n",
                 PgScriptQuote(s->source->label, quoted, sizeof quoted), s->when);
   Axes(script.file, s->discs.low, s->discs.high);
   for (PetscInt f = 0; f < cells; f++) {
-    Place(script.file, f, columns, rows, pixels);
+    Place(script.file, f, columns, rows, pixels, bar);
     if (f == s->fields) {
       PetscCall(LoadCell(s, script.file));
       break;
@@ -364,6 +422,7 @@ PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
   PgPlotRange range  = PG_PLOT_NO_RANGE;
   PetscReal   low[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, high[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL}, pixels[2];
   PetscInt    count = 0;
+  PetscReal   step, bar;
   PgScript    script;
   char        base[200], when[160];
 
@@ -371,13 +430,16 @@ PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
   PetscCall(PetscSNPrintf(base, sizeof base, "%s-film-%s", source->stem, plot->film->name));
   for (PetscInt i = 0; i < source->snapshots; i++) PetscCall(Frame(plot, source, i, base, &range, low, high, &count));
   PgPlotRangeFinish(plot->film->is_signed, &range);
+  step = PgPlotRound((range.high - range.low) / 6.0);
+  bar  = 2.0 * PetscCeilReal(4.0 * (PetscReal)PetscMax(8, LabelsOf(&range, step).length));
   /* one scale and one frame for all; an even number of pixels, as video encoders want */
   Pixels(low, high, 600.0, pixels);
-  PetscCall(PgScriptBegin(plot, base, 2.0 * PetscFloorReal(0.5 * pixels[0]) + 220.0,
+  PetscCall(PgScriptBegin(plot, base, 2.0 * PetscFloorReal(0.5 * pixels[0]) + 156.0 + bar,
                           2.0 * PetscFloorReal(0.5 * pixels[1]) + 120.0, PETSC_TRUE, &script));
   Axes(script.file, low, high);
   (void)fprintf(script.file, "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\n");
   PetscCall(PgScriptPalette(&script, plot->film->is_signed, 0, &range));
+  LabelBar(script.file, &range, step);
   for (PetscInt i = 0; i < source->snapshots; i++) {
     char data[300];
     PetscCall(When(source, source->time[i], when, sizeof when));

@@ -109,15 +109,19 @@ static void Draw(FILE *f, const Series *s, const char name[], const char x[], co
   DrawSeries(f, s, name, x, y, drawn, growth);
 }
 
-/* The same, each point with its fourth column written beside it. */
+/* The same, each point with its fourth column written beside it, in the colour of its series: above it and below it in
+   turn, since points of different series may lie near each other. */
 static void Labels(FILE *f, PetscReal size, const Series *s, const char name[], const char x[], const char y[],
                    const PetscInt drawn[])
 {
-  (void)fprintf(
-      f,
-      "plot for [k=0:%d] '%s.dat' index k using (%s):(%s):4 with labels left offset 0.6,0.4 font ',%.3g' tc rgb "
-      "'#666666' notitle, \\\n  ",
-      (int)s->count - 1, name, x, y, (double)(8.5 * size));
+  (void)fprintf(f, "plot ");
+  for (PetscInt k = 0, n = 0; k < s->count; k++) {
+    if (!drawn[k]) continue;
+    (void)fprintf(f, "'%s.dat' index %d using (%s):(%s):4 with labels %s font ',%.3g' tc rgb '%s' notitle, \\\n  ",
+                  name, (int)k, x, y, n % 2 ? "right offset -0.6,-0.5" : "left offset 0.6,0.5", (double)(8.5 * size),
+                  PgScriptColour(k));
+    n++;
+  }
   DrawSeries(f, s, name, x, y, drawn, NULL);
 }
 
@@ -131,27 +135,44 @@ static PetscInt Sum(PetscInt n, const PetscInt value[])
 
 /* ---- solvers ---- */
 
+/* A tic at each size of the study: between two powers of ten a logarithmic axis has none of its own. Sizes within 30 %
+   of the last one that is labelled get none. */
+static void SizeTics(FILE *file, PetscInt n, PetscReal size[])
+{
+  PetscReal last = 0.0;
+
+  (void)PetscSortReal(n, size);
+  (void)fprintf(file, "set format x '%%g'\nset xtics (");
+  for (PetscInt i = 0; i < n; i++) {
+    if (size[i] < 1.3 * last) continue;
+    (void)fprintf(file, "%s'%.0f' %.10g", last > 0.0 ? ", " : "", (double)size[i], (double)size[i]);
+    last = size[i];
+  }
+  (void)fprintf(file, ")\n");
+}
+
 /* Iterations against N, with the exponents that the study has fitted. */
 static PetscErrorCode Growth(PgPlot plot, const PgPlotSource *source, const char table[])
 {
   static const char *const by[2] = {"solver", NULL}, *const column[2] = {"N", "iterations_needed"};
   Series     s;
-  PetscReal *growth, least = PETSC_MAX_REAL, most = 0.0;
-  PetscInt  *drawn;
+  PetscReal *growth, least = PETSC_MAX_REAL, most = 0.0, *size;
+  PetscInt  *drawn, sizes = 0;
   PgScript   script;
   char       name[256];
 
   PetscFunctionBeginUser;
   PetscCall(SeriesCreate(source, table, by, "", &s));
-  PetscCall(PetscMalloc2(s.count, &growth, s.count, &drawn));
+  PetscCall(PetscMalloc3(s.count, &growth, s.count, &drawn, s.rows, &size));
   for (PetscInt k = 0; k < s.count; k++) growth[k] = (PetscReal)NAN;
   for (PetscInt i = 0; i < s.rows; i++) {
     PetscReal value;
     PetscCall(PgPlotSourceReal(source, table, i, "growth", &value));
     if (isfinite(value)) growth[s.series[i]] = value; /* over the sizes so far: the last is over all */
-    PetscCall(PgPlotSourceReal(source, table, i, "N", &value));
-    least = PetscMin(least, value);
-    most  = PetscMax(most, value);
+    PetscCall(PgPlotSourceReal(source, table, i, "N", &size[sizes]));
+    least = PetscMin(least, size[sizes]);
+    most  = PetscMax(most, size[sizes]);
+    sizes++;
   }
   if (most > least) {
     PetscCall(PetscSNPrintf(name, sizeof name, "%s-growth", source->stem));
@@ -160,10 +181,11 @@ static PetscErrorCode Growth(PgPlot plot, const PgPlotSource *source, const char
     PetscCall(PgScriptPicture(&script));
     Style(script.file, "number of unknowns N", "iterations (extrapolated when stopped)", PETSC_TRUE, PETSC_TRUE);
     (void)fprintf(script.file, "set key outside right\nset xrange [%g:%g]\n", 0.8 * (double)least, 1.25 * (double)most);
+    SizeTics(script.file, sizes, size);
     Draw(script.file, &s, name, "$1", "$2 > 0 ? $2 : NaN", drawn, growth);
     PetscCall(PgScriptEnd(&script));
   }
-  PetscCall(PetscFree2(growth, drawn));
+  PetscCall(PetscFree3(growth, drawn, size));
   PetscCall(SeriesDestroy(&s));
   PetscFunctionReturn(0);
 }
@@ -300,7 +322,7 @@ static PetscErrorCode Cost(PgPlot plot, const PgPlotSource *source)
     Style(script.file, "time [µs per disc and step of the discs]", "", PETSC_TRUE, PETSC_TRUE);
     (void)fprintf(script.file,
                   "set format x '%%g'\nset format y '%%g'\nset autoscale fix\n"
-                  "set offsets graph 0.05, graph 0.08, graph 0.08, graph 0.05\n"
+                  "set offsets graph 0.08, graph 0.08, graph 0.08, graph 0.08\n"
                   "do for [e=-9:3] {\n  set xtics add (sprintf('%%g', 2*10.0**e) 2*10.0**e, sprintf('%%g', 5*10.0**e) "
                   "5*10.0**e)\n"
                   "  set ytics add (sprintf('%%g', 2*10.0**e) 2*10.0**e, sprintf('%%g', 5*10.0**e) 5*10.0**e)\n}\n"

@@ -39,7 +39,25 @@ expect_close "${range%:*}" "-${range#*:}" 0
 # Another time: the snapshot nearest to it.
 "$POROGRAIN_PLOT" "wet run's.h5" -figures early -plot_time 1.2e-3 -plot_fields pressure -plot_gnuplot none >early.out
 expect_match 't = 0.001 s' "early/$wet-pressure.gp"
+expect_match "note: wet run's.h5 has no snapshot at 0.0012 s, the nearest is drawn, of 0.001 s" early.out
+! grep -q 'no snapshot at' scripts.out || fail 'a note about a time that nobody asked for'
+
+# Labels of the colour bar in the last column of a sheet end inside it, however many digits they have: 7 pixels each.
+"$POROGRAIN" -options_file "$SOURCE_DIR/options/panel_case1_ns.opts" "${short[@]}" -panel_displacement 1.236e-5 -output narrow.h5 >narrow.log
+"$POROGRAIN_PLOT" narrow.h5 -figures narrow -plot_fields porosity,pressure,effective_strain,rotation -plot_gnuplot none >narrow.out
+awk '/set terminal svg size/ { split($5, size, ",") }
+  /^set colorbox user/ { split($6, at, ","); split($9, wide, ","); end = (at[1] + wide[1]) * size[1] }
+  /^set cbrange/ { gsub(/[^-+.:e0-9]/, "", $3); split($3, range, ":") }
+  /^set format cb/ { gsub(/\x27/, "", $4); label = sprintf($4, range[1]); n++
+    if (end + 10 + 7 * length(label) > size[1]) { print "the label " label " ends outside"; bad = 1 } }
+  END { exit bad || n != 4 || length(label) < 7 }' narrow/narrow-fields.gp || fail 'labels of the colour bars of a sheet'
 [ ! -e "early/$wet-rotation.gp" ] || fail '-plot_fields draws more than asked'
+
+# A load that goes nowhere has no curve: no empty figure.
+"$POROGRAIN" -case bed_darcy -output bed.h5 >bed.log
+"$POROGRAIN_PLOT" bed.h5 -figures still -plot_fields pressure -plot_gnuplot none >still.out
+expect_match 'bed.h5 has no history of a load over a displacement' still.out
+[ ! -e still/load.gp ] || fail 'an empty figure of the load'
 
 # A study.
 "$POROGRAIN_STUDY" -study_sizes 200,1249 -study_solvers "$SOURCE_DIR/options/solvers/all.txt" -study_only cg-jacobi,cg-gamg \
@@ -47,10 +65,11 @@ expect_match 't = 0.001 s' "early/$wet-pressure.gp"
 "$POROGRAIN_PLOT" study.h5 -figures scripts -plot_gnuplot none >study.out
 growth=$(csv_column study.csv growth | tail -n 1)
 expect_match "cg-gamg  N\^$(printf '%.2f' "$growth")'" scripts/study-growth.gp
+expect_match "set xtics \('199' 199, '1249' 1249\)" scripts/study-growth.gp
 for f in study-residuals-1 study-residuals-2; do [ -s "scripts/$f.gp" ] || fail "no $f.gp"; done
 
 # Errors: message and status, and nothing half-written.
-expect_error 2 "no file to plot" "$POROGRAIN_PLOT" -figures none
+expect_error 2 "^porograin-plot: error: .*no file to plot" "$POROGRAIN_PLOT" -figures none
 expect_error 4 "result file 'missing.h5': " "$POROGRAIN_PLOT" missing.h5 -figures none
 expect_error 4 "result file 'wet.log': " "$POROGRAIN_PLOT" wet.log -figures none
 head -c 100000 dry.h5 >cut.h5
