@@ -58,7 +58,7 @@ PETSC_EXTERN PetscErrorCode PgFemSetElement(PgFem fem, PgFemElement element);
 /* Pressure projection of Q1-Q1 with tau = factor/M (default 3; 0: none). */
 PETSC_EXTERN PetscErrorCode PgFemSetStabilisation(PgFem fem, PetscReal factor);
 /* Generalised trapezoidal rule, 0.5 <= theta <= 1; the first `start` steps use 1 whatever theta is, since loads
-   applied at once do not fit the state at rest. Default 1, 0. */
+   applied at once do not fit the state at rest; with inertia the first one at least. Default 1, 0. */
 PETSC_EXTERN PetscErrorCode PgFemSetTheta(PgFem fem, PetscReal theta, PetscInt start);
 /* Inertia of the mixture, and a damping in proportion to mass [1/s]. Default off. */
 PETSC_EXTERN PetscErrorCode PgFemSetInertia(PgFem fem, PetscBool inertia, PetscReal damping);

@@ -79,18 +79,24 @@ static PetscErrorCode TakeSolution(PgFem fem)
   PetscFunctionReturn(0);
 }
 
+/* Of the next step. The acceleration at the start is not known, which backward Euler does not ask for. */
+static PetscReal NextTheta(const PgFem fem)
+{
+  return fem->step < fem->start_steps || (fem->inertia && fem->step == 0) ? 1.0 : fem->theta;
+}
+
 PetscErrorCode PgFemSetUpSolver(PgFem fem, PetscReal dt)
 {
   PetscFunctionBeginUser;
   PetscCheck(fem->dof, fem->comm, PETSC_ERR_ORDER, "PgFemSetUp() comes before PgFemSetUpSolver()");
   PgInputCheck(dt > 0.0 && dt < PETSC_MAX_REAL, fem->comm, "up: a step of %g s; it must be > 0 s", (double)dt);
-  PetscCall(PgFemSystemBuild(fem, dt, fem->start_steps ? 1.0 : fem->theta));
+  PetscCall(PgFemSystemBuild(fem, dt, NextTheta(fem)));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgFemStep(PgFem fem, PetscReal dt)
 {
-  const PetscReal theta = fem->step < fem->start_steps ? 1.0 : fem->theta;
+  const PetscReal theta = NextTheta(fem);
 
   PetscFunctionBeginUser;
   PetscCheck(fem->dof, fem->comm, PETSC_ERR_ORDER, "PgFemSetUp() comes before PgFemStep()");
