@@ -10,7 +10,7 @@ cmake=$(cached CMAKE_COMMAND)
 version=$(sed -n 's/^#define PG_VERSION "\(.*\)"/\1/p' "$SOURCE_DIR/include/porograin/base.h")
 [ -n "$version" ] || fail 'no version in base.h'
 
-# works FOLDER: what lies below FOLDER is complete and runs.
+# works FOLDER PREFIX: what lies below FOLDER is complete and runs; it was installed for PREFIX.
 works() {
   local root=$1 file
   for file in bin/porograin bin/porograin-study bin/porograin-plot share/porograin/options/panel_case1_ns.opts \
@@ -21,6 +21,8 @@ works() {
   for file in porograin porograin-study porograin-plot; do
     gzip -dc "$root/share/man/man1/$file.1.gz" | grep -q "\"porograin $version\"" || fail "manual page of $file"
   done
+  gzip -dc "$root/share/man/man1/porograin.1.gz" | grep -Fq "options_file $2/share/porograin/options/panel_case1_ns.opts" ||
+    fail "the manual page does not name $2/share/porograin/options"
   ! find "$root" -name '*.in' -o -name '*~' | grep . || fail 'rubbish is installed'
   # Links of the documentation lead to files that are there, too.
   grep -o ']([^)#]*' "$root/share/doc/porograin/README.md" | sed 's/^](//' | grep -v '^http\|^\.ci/' | while read -r file; do
@@ -42,7 +44,7 @@ works() {
 
 "$cmake" --install "$build" --prefix "$WORK_DIR/first" >install.log
 mv first 'moved here'
-works "$WORK_DIR/moved here"
+works "$WORK_DIR/moved here" "$WORK_DIR/first"
 mv 'moved here' prefix
 
 # The ten lines of docs/install.md, compiled as it says.
@@ -75,5 +77,5 @@ dpkg-deb -c "$deb" | awk '{ print $6 }' >contents
 ! grep -v '^\./\(usr\(/.*\)\?\)\?$' contents || fail 'files outside of /usr'
 ! dpkg-deb -c "$deb" | awk '$2 != "root/root"' | grep . || fail 'files that do not belong to root'
 dpkg-deb -x "$deb" unpacked
-works "$WORK_DIR/unpacked/usr"
+works "$WORK_DIR/unpacked/usr" /usr
 ls "unpacked/usr/$(cached CMAKE_INSTALL_LIBDIR)" | grep -q '^libporograin[.]' || fail 'the library is not in its folder'
