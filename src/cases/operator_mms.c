@@ -172,9 +172,9 @@ static PetscErrorCode Run(MPI_Comm comm, void *context, const char output[])
 {
   const PgMmsPlan    *plan         = (const PgMmsPlan *)context;
   PgMmsSequence       s[SEQUENCES] = {{.what = NULL}};
-  PgMmsOperatorErrors e;
+  PgMmsOperatorErrors e            = {0};
   PgTableFiles        files;
-  PgTable             table;
+  PgTable             table = NULL;
 
   PetscFunctionBeginUser;
   PetscCall(PgTableFilesFromOutput(comm, output, &files));

@@ -264,10 +264,10 @@ static PetscErrorCode Run(MPI_Comm comm, void *context, const char output[])
   const PgMmsPlan    *plan         = (const PgMmsPlan *)context;
   const PgMmsSides    sides        = (PgMmsSides)plan->sides;
   PgMmsSequence       s[SEQUENCES] = {{.what = NULL}};
-  PgMmsPressureErrors e;
+  PgMmsPressureErrors e            = {0};
   PgPressureMethod    method;
   PgTableFiles        files;
-  PgTable             table;
+  PgTable             table = NULL;
 
   PetscFunctionBeginUser;
   PetscCall(PgTableFilesFromOutput(comm, output, &files));
