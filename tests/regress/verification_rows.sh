@@ -18,6 +18,8 @@ grep -hoE 'VERIFY \| [^|]*[^ |]' "$tests"/*.sh | sed 's/^VERIFY | //' | sort -u 
 sort -u -o cases cases
 
 sed -n 's/^## //p' "$table" | grep -v '^Breaks' | grep -v '^Left out' | sort -u >headings
+twice=$(grep '^## ' "$table" | sort | uniq -d)
+[ -z "$twice" ] || fail "more than one table for: $twice"
 missing=$(comm -23 cases headings)
 [ -z "$missing" ] || fail "no table for: $missing"
 extra=$(comm -13 cases headings)
