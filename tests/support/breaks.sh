@@ -38,6 +38,15 @@ water_terzaghi ; src/pore/poreimpl.h ; s/if (s->plate\[a\] == 0.0) return PETSC_
 water_terzaghi ; src/pore/darcy.c ; s/return dt_f \/ ((1.0/return 0.9 * dt_f \/ ((1.0/ ; mobility of the discs 10 % smaller
 water_panel ; src/dem/integrate.c ; s/x\[i\] += dt \* v\[i\]/x[i] += dt * v[i] * (1 + 1e4 * dt)/ ; positions advance by 1e4 dt of their way too far, an error of first order
 water_panel ; src/simulation/step.c ; s/dt_f = sim->dt \* (PetscReal)sim->fluid_every;/dt_f = sim->dt * (PetscReal)(sim->fluid_every + (sim->fluid_every > 1));/ ; fluid step of M + 1 steps of the discs, for M > 1
+up_consolidation ; src/fem/material.c ; s/(m->alpha - m->n) \/ m->K_s/m->alpha \/ m->K_s/ ; storage of the grains without the porosity taken off
+up_consolidation ; src/fem/element.c ; s/c->D \* (-grad\[i\] + c->rho_f \* gravity\[i\])/0.99 * c->D * (-grad[i] + c->rho_f * gravity[i])/ ; Darcy's law of the continuum 1 % weaker
+up_consolidation ; src/fem/step.c ; s/load\[plate->master_local\] += all/load[plate->master_local] += 0.99 * all/ ; forces under a plate 1 % off
+up_stability ; src/fem/system.c ; s/fem->stabilisation \/ M/0.99 * fem->stabilisation \/ M/ ; pressure projection 1 % weaker
+up_footing ; src/fem/conditions.c ; s/(N\[e\] - 0.5 \* bubble)/(N[e] - 0.45 * bubble)/ ; loads of Q2 edges wrong at their ends
+up_footing ; src/fem/element.c ; s/v->stress\[2\]  *= c->G \* e\[2\]/v->stress[2] = 1.02 * c->G * e[2]/ ; shear stress 2 % too large
+up_zones ; src/fem/system.c ; s/= PgFemStorage(m)/= 100.0 * PgFemStorage(m)/ ; water and grains a hundred times softer
+up_inertia ; src/fem/step.c ; s/- (1.0 - theta) \/ theta \* a;/- 0.98 * (1.0 - theta) \/ theta * a;/ ; old acceleration 2 % off in the trapezoidal rule
+up_solver ; src/fem/solver.c ; s/"-up_fieldsplit_u_pc_type", "hypre"/"-up_fieldsplit_u_pc_type", "jacobi"/ ; displacements preconditioned by Jacobi
 LINES
 }
 

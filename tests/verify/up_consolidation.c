@@ -30,7 +30,7 @@ static void Start(Problem *p, const char name[], PetscReal length, const char op
   CHECK(PgUpSetUp(p->up));
   CHECK(PgUpGetFem(p->up, &p->fem));
   CHECK(PgFemGetMaterial(p->fem, &p->m));
-  p->unit = length * length / PgFemConsolidation(&p->m);
+  p->unit = length * length / ExactDiffusivity(&p->m);
 }
 
 static void Steps(Problem *p, PetscReal T, PetscInt steps)
@@ -67,7 +67,7 @@ static void TerzaghiErrors(const char element[], PetscReal nu, PetscInt cells, P
   Steps(&p, column.T, cells * cells / 2);
   CHECK(PgFemIntegrate(p.fem, 2, ColumnError, &column, sum));
   CHECK(PgUpGetSettlement(p.up, &way));
-  M           = PgFemConstrainedModulus(&p.m);
+  M           = ExactM(&p.m);
   *pressure   = PetscSqrtReal(sum[0] / sum[1]);
   *settlement = PetscAbsReal(way / (column.load / M) - TerzaghiSettlement(column.T));
   CHECK(PgUpDestroy(&p.up));
@@ -122,10 +122,10 @@ static PetscReal ModeSettlement(const char options[], PetscInt steps)
   CHECK(PgUpCreate(PETSC_COMM_WORLD, "up_terzaghi", &p.up));
   CHECK(PgUpGetFem(p.up, &p.fem));
   CHECK(PgFemGetMaterial(p.fem, &p.m));
-  M = PgFemConstrainedModulus(&p.m);
+  M = ExactM(&p.m);
   CHECK(PgFemSetInitial(p.fem, Mode, &M));
   CHECK(PgUpSetUp(p.up));
-  p.unit = 1.0 / PgFemConsolidation(&p.m);
+  p.unit = 1.0 / ExactDiffusivity(&p.m);
   Steps(&p, 0.2, steps);
   CHECK(PgUpGetSettlement(p.up, &way));
   CHECK(PgUpDestroy(&p.up));

@@ -3,6 +3,7 @@
 #include <porograin/cases.h>
 #include <petscksp.h>
 #include <stdlib.h>
+#include "up_exact.h"
 #include "verify.h"
 
 #define DIRECT "-up_ksp_type preonly -up_pc_type lu -up_pc_factor_mat_solver_type mumps "
@@ -30,7 +31,7 @@ static void FirstStep(PetscReal nu, const char element[], PetscReal *overshoot, 
   CHECK(PgUpSetUp(up));
   CHECK(PgUpGetFem(up, &fem));
   CHECK(PgFemGetMaterial(fem, &m));
-  c = PgFemConsolidation(&m);
+  c = ExactDiffusivity(&m);
   CHECK(PgFemStep(fem, 1e-6 / (400.0 * 6.0 * c)));
   CHECK(PgFemGetNodes(fem, &nodes));
   for (PetscInt i = 0; i < nodes.count; i++)
