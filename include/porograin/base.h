@@ -103,6 +103,35 @@ PETSC_EXTERN PetscErrorCode PgOptionString(PetscOptionItems *PetscOptionsObject,
 /* Smallest number that counts as positive: the lower bound of quantities that must be > 0. */
 #define PG_POSITIVE PETSC_MACHINE_EPSILON *PETSC_MACHINE_EPSILON
 
+/* An option that has an effect only in company. */
+typedef struct {
+  const char *option; /* a name that ends in '*' stands for all that begin so */
+  const char *needs;  /* "-pressure explicit", "-fluid darcy|ns"; "-output": any value; "no -output"; "walls": a fact;
+                         alternatives are separated by " or " */
+  const char *reason; /* "only a drained side has a pressure" */
+} PgOptionRule;
+typedef struct {
+  PetscInt            count;
+  const PgOptionRule *rule;
+  PetscBool (*fact)(void *context, const char name[]); /* what is true of the run beside its options */
+  void *context;
+} PgOptionRules;
+
+/* Ends in an error when an option has no effect by the rules (NULL: none), or is read by nobody as in
+   PgOptionsCheckUnused(). One that stands in a file (or PETSC_OPTIONS), and was overruled by what stands in a later
+   file or on the command line, does not end the run: all of those are named in one line of warning. Collective. */
+PETSC_EXTERN PetscErrorCode PgOptionsCheck(MPI_Comm comm, const PgOptionRules *rules, PetscErrorCode (*probe)(void *),
+                                           void *context);
+/* Two options that exclude each other: when both are given in the same place ends in an error; else the later one wins,
+   and *loser is the name of the other, which the caller must not use; "" when there is no conflict. The next
+   PgOptionsCheck() warns of it. Collective. */
+PETSC_EXTERN PetscErrorCode PgOptionsOneOf(MPI_Comm comm, const char one[], const char other[], const char **loser);
+
+/* Who has set an option that was not given as it stands: PgOptionsCheck() leaves alone what a program sets in the place of
+   the user, and takes what a case brings along for chosen with -case. */
+typedef enum { PG_OPTION_USER, PG_OPTION_CASE, PG_OPTION_PROGRAM } PgOptionBase;
+PETSC_EXTERN PetscErrorCode PgOptionsSetBy(const char name[], PgOptionBase by);
+
 /* Ends in an error when the command line, an options file or PETSC_OPTIONS holds an option that nobody
    asked for, naming each with the nearest known name. `probe` (may be NULL) is called to make PETSc
    objects print their -help into a collector, so that their names are known too. To be called when all

@@ -47,7 +47,42 @@ PETSC_INTERN PetscErrorCode PgCollectAll(MPI_Comm comm, PetscErrorCode (*collect
 /* unknown.c: what to call for the options that other runs read; may be NULL. */
 PETSC_INTERN void PgOptionsSetCollector(PetscErrorCode (*collect)(MPI_Comm));
 
+/* ---- sources.c: where an option was given ---- */
+
+/* Who wins: the larger one. A set of files counts up from PG_LAYER_FILE. */
+enum {
+  PG_LAYER_PROGRAM = -1, /* not by the user, nor by a case for him: to be left alone */
+  PG_LAYER_PETSCRC,
+  PG_LAYER_ENVIRONMENT,
+  PG_LAYER_FILE,
+  PG_LAYER_COMMAND_LINE = 1000000
+};
+/* Reads what the user has given once more; valid until PgSourcesEnd(). Collective. */
+PETSC_INTERN PetscErrorCode PgSourcesBegin(void);
+PETSC_INTERN PetscErrorCode PgSourcesEnd(void);
+/* The layer of an option that is set, and in words where that is (may be NULL); what a case sets counts as given with
+   -case. */
+PETSC_INTERN PetscErrorCode PgSourceOf(const char name[], int *layer, const char **where);
+/* Whether neither the program nor a case has set it. */
+PETSC_INTERN PetscBool PgIsOfUser(const char name[]);
+
+/* ---- effect.c: options without effect ---- */
+
+/* Whether `name` may be idle because of `by`, which was given later than the file that `name` stands in; then it will be
+   named by PgIdleReport(). Between PgSourcesBegin() and PgSourcesEnd(). */
+PETSC_INTERN PetscErrorCode PgIdleBecause(const char name[], const char value[], const char by[], const char by_value[],
+                                          PetscBool *fine);
+/* Prints the line of warning, unless the run ends anyway, and begins a new one. Collective. */
+PETSC_INTERN PetscErrorCode PgIdleReport(MPI_Comm comm, PetscBool print);
+/* Reports what has no effect by the rules and adds to *refused; `spoken`, to be freed with its `count` names: all of which
+   something was said or will be. Between PgSourcesBegin() and PgSourcesEnd(). Collective. */
+PETSC_INTERN PetscErrorCode PgEffectCheck(MPI_Comm comm, const PgOptionRules *rules, PetscInt *refused, char ***spoken,
+                                          PetscInt *count);
+
 /* ---- optionfiles.c ---- */
+
+/* As PETSc tells an option from a value: -9.81 and -inf are values. */
+PETSC_INTERN PetscBool PgIsOptionName(const char word[]);
 
 /* Looks at the files that the command line, PETSC_OPTIONS and PETSc's own places name, before PETSc reads them: it
    would stop on one rank only, with pages of text. Returns 0 or a code of PETSc and the message. One rank calls it. */

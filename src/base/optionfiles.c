@@ -23,7 +23,7 @@ typedef struct {
 static PetscErrorCode CheckFile(const char given[], PetscBool yaml, int depth, const Answer *answer);
 
 /* As PETSc tells an option from a value: -9.81 and -inf are values. */
-static PetscBool IsOption(const char word[])
+PetscBool PgIsOptionName(const char word[])
 {
   char *end = NULL;
 
@@ -117,13 +117,13 @@ static PetscErrorCode CheckLine(const char file[], int number, char line[], int 
   }
   if (!word[0]) return 0;
   if (!strcasecmp(word[0], "alias")) {
-    if (IsOption(word[1]) && IsOption(word[2]) && !NextWord(&rest)) return 0;
+    if (PgIsOptionName(word[1]) && PgIsOptionName(word[2]) && !NextWord(&rest)) return 0;
     (void)snprintf(answer->message, answer->length,
                    "options file '%s', line %d: alias needs two names of options, as in 'alias -new -old'", file,
                    number);
     return PETSC_ERR_USER_INPUT;
   }
-  if (IsOption(word[0]) && !IsOption(word[1]) && !word[2]) {
+  if (PgIsOptionName(word[0]) && !PgIsOptionName(word[1]) && !word[2]) {
     char           what[128];
     const Answer   inner = {what, sizeof what, answer->prefixes};
     PetscErrorCode err   = CheckPrefix(word[0], word[1], &inner);
@@ -134,10 +134,10 @@ static PetscErrorCode CheckLine(const char file[], int number, char line[], int 
   }
   for (int k = 0; k < 3; k++)
     if (word[k]) Printable(word[k]);
-  if (!IsOption(word[0]))
+  if (!PgIsOptionName(word[0]))
     (void)snprintf(answer->message, answer->length,
                    "options file '%s', line %d: '%.60s' is no option: options start with '-'", file, number, word[0]);
-  else if (IsOption(word[1]))
+  else if (PgIsOptionName(word[1]))
     (void)snprintf(answer->message, answer->length,
                    "options file '%s', line %d: two options, %.60s and %.60s, in one line", file, number, word[0],
                    word[1]);

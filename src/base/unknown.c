@@ -1,5 +1,6 @@
 /* Options that nobody asked for: unknown, misspelt, or of another kind of run. */
 #include "baseimpl.h"
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -104,22 +105,47 @@ static PetscErrorCode LearnNames(MPI_Comm comm, PetscErrorCode (*probe)(void *),
 
 static const char *Dash(const char name[]) { return name[0] == '-' ? "" : "-"; }
 
-static PetscErrorCode Refuse(MPI_Comm comm, const char name[], const char value[])
+/* "-fluid" of "-fluid darcy or -fluid ns": the option that decides. */
+static void Decisive(const char needs[], char name[128])
 {
-  const PgKnownOption *exact = PgKnownFind(name), *pattern = PgKnownPattern(name), *nearest;
-  const char          *gap = value ? " " : "";
+  (void)snprintf(name, 128, "%.*s", (int)PetscMin(strcspn(needs, " "), 127), needs);
+}
+
+/* An option of another kind of run, by the choice of `needs`. */
+static PetscErrorCode NotThisRun(MPI_Comm comm, const char name[], const char value[], const char needs[],
+                                 PetscInt *refused)
+{
+  char        option[256], by[128];
+  const char *choice = NULL;
+  PetscBool   given, fine = PETSC_FALSE;
 
   PetscFunctionBeginUser;
-  if (!value) value = "";
+  (void)snprintf(option, sizeof option, "-%s", name);
+  Decisive(needs[0] ? needs : "-case", by); /* the case, when it is one that reads all its options itself */
+  PetscCall(PetscOptionsFindPair(NULL, NULL, by, &choice, &given));
+  if (given) PetscCall(PgIdleBecause(option, value, by, choice, &fine));
+  if (fine) PetscFunctionReturn(0);
+  if (needs[0])
+    PetscCall(PgReport(comm, "option %s%s%s is not read in this run, it needs %s", option, value[0] ? " " : "", value,
+                       needs));
+  else
+    PetscCall(PgReport(comm, "option %s%s%s is of no use to this case", option, value[0] ? " " : "", value));
+  (*refused)++;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Refuse(MPI_Comm comm, const char name[], const char given[], PetscInt *refused)
+{
+  const PgKnownOption *exact = PgKnownFind(name), *pattern = PgKnownPattern(name), *nearest;
+  const char          *value = given ? given : "", *gap = given ? " " : "";
+
+  PetscFunctionBeginUser;
   if (!exact && pattern && !pattern->active) exact = pattern; /* no run so far has made what would read it */
-  if (exact && !exact->active && exact->needs[0]) {
-    PetscCall(PgReport(comm, "option -%s%s%s is not read in this run, it needs %s", name, gap, value, exact->needs));
+  if (exact && !exact->active && (exact->needs[0] || exact != pattern)) {
+    PetscCall(NotThisRun(comm, name, value, exact->needs, refused));
     PetscFunctionReturn(0);
   }
-  if (exact && exact != pattern && !exact->active) {
-    PetscCall(PgReport(comm, "option -%s%s%s is of no use to this case", name, gap, value));
-    PetscFunctionReturn(0);
-  }
+  (*refused)++;
   nearest = PgKnownNearest(name);
   if (!nearest && pattern)
     PetscCall(PgReport(comm, "unknown option -%s%s%s: misspelt, or of a solver that this run does not use", name, gap,
@@ -135,18 +161,46 @@ static PetscErrorCode Refuse(MPI_Comm comm, const char name[], const char value[
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgOptionsCheckUnused(MPI_Comm comm, PetscErrorCode (*probe)(void *), void *context)
+static PetscErrorCode CheckUnread(MPI_Comm comm, PetscInt spoken, char *const said[], PetscErrorCode (*probe)(void *),
+                                  void *context, PetscInt *refused)
 {
-  PetscInt count, unknown = 0;
-  char   **name, **value;
+  PetscInt  count;
+  PetscBool learnt = PETSC_FALSE;
+  char    **name, **value;
 
   PetscFunctionBeginUser;
   PetscCall(PetscOptionsLeftGet(NULL, &count, &name, &value));
   for (PetscInt i = 0; i < count; i++) {
-    if (BelongsToPetsc(name[i])) continue;
-    if (!unknown++) PetscCall(LearnNames(comm, probe, context));
-    PetscCall(Refuse(comm, name[i], value[i]));
+    PetscBool known = BelongsToPetsc(name[i]);
+    for (PetscInt k = 0; k < spoken; k++) known = (PetscBool)(known || !strcasecmp(said[k] + 1, name[i]));
+    if (known) continue;
+    if (!learnt) PetscCall(LearnNames(comm, probe, context));
+    learnt = PETSC_TRUE;
+    PetscCall(Refuse(comm, name[i], value[i], refused));
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &count, &name, &value));
-  PetscFunctionReturn(unknown ? PETSC_ERR_USER_INPUT : 0);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgOptionsCheck(MPI_Comm comm, const PgOptionRules *rules, PetscErrorCode (*probe)(void *), void *context)
+{
+  PetscInt spoken = 0, refused = 0;
+  char   **said = NULL;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgSourcesBegin());
+  if (rules) PetscCall(PgEffectCheck(comm, rules, &refused, &said, &spoken));
+  PetscCall(CheckUnread(comm, spoken, said, probe, context, &refused));
+  for (PetscInt k = 0; k < spoken; k++) PetscCall(PetscFree(said[k]));
+  PetscCall(PetscFree(said));
+  PetscCall(PgSourcesEnd());
+  PetscCall(PgIdleReport(comm, (PetscBool)!refused));
+  PetscFunctionReturn(refused ? PETSC_ERR_USER_INPUT : 0);
+}
+
+PetscErrorCode PgOptionsCheckUnused(MPI_Comm comm, PetscErrorCode (*probe)(void *), void *context)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgOptionsCheck(comm, NULL, probe, context));
+  PetscFunctionReturn(0);
 }

@@ -38,6 +38,7 @@ PetscErrorCode PgCaseDefaults(const char options[])
     PetscBool set;
     if (!word[i][0]) continue;
     PetscCall(PetscOptionsSetValue(NULL, word[i], word[i + 1]));
+    PetscCall(PgOptionsSetBy(word[i], PG_OPTION_CASE));
     /* the user did not give it: it is no unknown option when this run has no use for it */
     PetscCall(PetscOptionsHasName(NULL, NULL, word[i], &set));
   }

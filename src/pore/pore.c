@@ -104,7 +104,7 @@ static PetscErrorCode BoundaryOptions(PgPore pore, PetscOptionItems *PetscOption
   for (int s = 0; s < PG_SIDE_COUNT; s++) {
     PgBoundary *bc   = &pore->boundary[s];
     PetscInt    kind = bc->kind;
-    PetscBool   pressure, flux;
+    PetscBool   flux;
     char        name[64], text[96];
 
     PetscCall(PetscSNPrintf(name, sizeof name, "-bc_%s", side_words[s]));
@@ -113,17 +113,15 @@ static PetscErrorCode BoundaryOptions(PgPore pore, PetscOptionItems *PetscOption
     bc->kind = (PgBoundaryKind)kind;
     PetscCall(PetscSNPrintf(name, sizeof name, "-bc_%s_pressure", side_words[s]));
     bc->pressure = pore->p_initial;
-    PetscCall(PgOptionReal(PetscOptionsObject, name, "pressure of a drained side", "Pa", -1e12, 1e12, &bc->pressure,
-                           &pressure));
+    PetscCall(
+        PgOptionReal(PetscOptionsObject, name, "pressure of a drained side", "Pa", -1e12, 1e12, &bc->pressure, NULL));
     PetscCall(PetscSNPrintf(name, sizeof name, "-bc_%s_flux", side_words[s]));
     PetscCall(PgOptionReal(PetscOptionsObject, name, "Darcy velocity through a flux side along the positive axis",
                            "m/s", -1e3, 1e3, &bc->flux, &flux));
-    PgInputCheck(!pressure || kind == PG_BC_DRAINED, PetscOptionsObject->comm,
-                 "options -bc_%s_pressure and -bc_%s %s contradict each other: only a drained side has a pressure",
-                 side_words[s], side_words[s], kind_words[kind]);
-    PgInputCheck(!flux || kind == PG_BC_FLUX, PetscOptionsObject->comm,
-                 "options -bc_%s_flux and -bc_%s %s contradict each other: only a flux side has a flux", side_words[s],
-                 side_words[s], kind_words[kind]);
+    PgInputCheck(flux || kind != PG_BC_FLUX, PetscOptionsObject->comm,
+                 "option -bc_%s flux needs -bc_%s_flux W, the Darcy velocity through that side along the positive axis "
+                 "[m/s]",
+                 side_words[s], side_words[s]);
   }
   PetscCall(
       PgOptionChoice(PetscOptionsObject, "-bc_tracking",
@@ -144,18 +142,17 @@ static PetscErrorCode SchemeOptions(PgPore pore, PetscOptionItems *PetscOptionsO
 {
   PetscInt continuity = pore->continuity, coupling = pore->coupling, scheme, porosity = pore->porosity_kind,
            rate = pore->rate_kind, local = pore->k_p_local, guess = pore->guess;
-  PetscBool set, set_local, set_k;
-  char      law[64];
+  const char *loser = "";
+  char        law[64];
 
   PetscFunctionBeginUser;
   PetscCall(PetscStrncpy(law, pore->drag_law->name, sizeof law));
   PetscCall(PgOptionReal(PetscOptionsObject, "-permeability", "Darcy permeability k_p, Eq. 26", "m4/(N s)", PG_POSITIVE,
-                         1e3, &pore->k_p, &set_k));
+                         1e3, &pore->k_p, NULL));
   PetscCall(PgOptionChoice(PetscOptionsObject, "-permeability_law",
-                           "k_p constant, or from the local porosity by Eq. 66", 2, permeability_words, &local,
-                           &set_local));
-  PgInputCheck(!(set_k && local), PetscOptionsObject->comm,
-               "options -permeability and -permeability_law kozeny_carman contradict each other");
+                           "k_p constant, or from the local porosity by Eq. 66", 2, permeability_words, &local, NULL));
+  if (local) PetscCall(PgOptionsOneOf(PetscOptionsObject->comm, "-permeability", "-permeability_law", &loser));
+  if (!strcmp(loser, "-permeability_law")) local = 0;
   PetscCall(PgOptionReal(PetscOptionsObject, "-ns_theta", "implicitness of the forces on the water, Eq. 41", "1", 0.01,
                          1.0, &pore->theta, NULL));
   PetscCall(PgOptionChoice(PetscOptionsObject, "-ns_continuity",
@@ -180,9 +177,7 @@ static PetscErrorCode SchemeOptions(PgPore pore, PetscOptionItems *PetscOptionsO
       "pressure-gradient force: both phases projected with the new pressure; force of the old one; or that, "
       "corrected by projection with the increment; default: projection, but staggered with -fluid ns "
       "-ns_continuity solenoidal",
-      3, scheme_words, &scheme, &set));
-  PgInputCheck(!set || coupling == PG_COUPLING_DRAG_AND_PRESSURE, PetscOptionsObject->comm,
-               "option -coupling_scheme has a meaning only with -coupling drag_and_pressure");
+      3, scheme_words, &scheme, NULL));
   PgInputCheck(!(pore->fluid == PG_FLUID_NS && continuity == PG_CONTINUITY_SOLENOIDAL &&
                  coupling == PG_COUPLING_DRAG_AND_PRESSURE && scheme != PG_SCHEME_STAGGERED),
                PetscOptionsObject->comm,

@@ -37,8 +37,8 @@ static PetscErrorCode TimeOptions(PgSimulation sim, PetscOptionItems *PetscOptio
                          "time step of the discs; default: -dt_safety times the critical one", "s", PG_POSITIVE, 1e3,
                          &sim->dt, &sim->dt_set));
   PetscCall(PgOptionReal(PetscOptionsObject, "-dt_safety",
-                         "fraction of the critical time step taken when -dt is absent", "1", 1e-6, 1.0, &sim->dt_safety,
-                         NULL));
+                         "fraction of the critical time step taken in the place of -dt", "1", 1e-6, 1.0,
+                         &sim->dt_safety, NULL));
   PetscCall(PgOptionInt(PetscOptionsObject, "-fluid_every", "steps of the discs in one step of the water", 1, 1000000,
                         &sim->fluid_every, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-end_time", "end of the run; default: of the case", "s", 0.0, 1e9,
@@ -202,16 +202,26 @@ static PetscInt Interval(PetscReal asked, PetscReal fallback, PetscReal dt_f)
   return PetscMax(1, (PetscInt)PetscFloorReal(interval / dt_f + 0.5));
 }
 
+/* Of two options that exclude each other the one that was given later. */
+static PetscErrorCode ChooseTimes(PgSimulation sim)
+{
+  const char *loser;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgOptionsOneOf(sim->comm, "-end_time", "-panel_displacement", &loser));
+  if (!strcmp(loser, "-end_time")) sim->end_set = PETSC_FALSE;
+  PetscCall(PgOptionsOneOf(sim->comm, "-dt", "-dt_safety", &loser));
+  if (!strcmp(loser, "-dt")) sim->dt_set = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SetUpTime(PgSimulation sim, PetscReal case_end)
 {
   const PetscReal asked_end = sim->setup.end_time;
   PetscReal       dt_f, end;
-  PetscBool       displacement;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-panel_displacement", &displacement));
-  PgInputCheck(!(sim->end_set && displacement), sim->comm,
-               "options -end_time and -panel_displacement contradict each other: give one");
+  PetscCall(ChooseTimes(sim));
   end = sim->end_set ? asked_end : case_end;
   PgInputCheck(end > 0.0, sim->comm, "the run has no end: give -end_time > 0 s");
   PetscCall(PgDemCriticalTimeStep(sim->dem, &sim->dt_critical));
@@ -244,16 +254,6 @@ static PetscErrorCode SetUpWater(PgSimulation sim)
   PetscCall(PgPoreSetUp(sim->pore, sim->dt * (PetscReal)sim->fluid_every));
   PetscCall(PgPoreGetParts(sim->pore, NULL, &pressure));
   PetscCall(PgPressureSetUpSolver(pressure)); /* so that PETSc reads nested solver options before the check */
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode CheckOptions(PgSimulation sim)
-{
-  PgPressure pressure = NULL;
-
-  PetscFunctionBeginUser;
-  if (sim->pore) PetscCall(PgPoreGetParts(sim->pore, NULL, &pressure));
-  PetscCall(PgOptionsCheckUnused(sim->comm, pressure ? PgPressureProbeOptions : NULL, pressure));
   PetscFunctionReturn(0);
 }
 
@@ -338,7 +338,7 @@ PetscErrorCode PgSimulationSetUp(PgSimulation sim)
     if (sim->pore) PetscCall(SetUpWater(sim));
   }
   PetscCall(NameFailures(sim));
-  PetscCall(CheckOptions(sim));
+  PetscCall(PgSimulationCheckOptions(sim));
   PetscCall(PgPackingExport(sim->comm, sim->particles));
   PetscCall(SetUpOutput(sim));
   PetscCall(PgStagePop());

@@ -123,6 +123,8 @@ PETSC_INTERN PetscErrorCode PgMonitorSnapshot(PgSimulation sim, PgOutput output)
 /* List builds since the start of the run, also before a restart. */
 PETSC_INTERN PetscErrorCode PgMonitorGetBuilds(PgSimulation sim, PetscInt *builds);
 PETSC_INTERN PetscErrorCode PgSimulationGuard(PgSimulation sim);
+/* rules.c: refuses options that are unknown or have no effect. Collective. */
+PETSC_INTERN PetscErrorCode PgSimulationCheckOptions(PgSimulation sim);
 
 /* progress.c: how far the run is, as lines or as a bar, and the summary at its end */
 /* Reads -progress and -progress_every. */

@@ -16,6 +16,7 @@ static PetscErrorCode Save(PgOverride *o, const char name[])
   if (had && value) PetscCall(PetscStrallocpy(value, &o->before[o->count]));
   if (had) PetscCall(PetscOptionsClearValue(NULL, name));
   o->count++;
+  PetscCall(PgOptionsSetBy(name, PG_OPTION_PROGRAM));
   PetscFunctionReturn(0);
 }
 
@@ -42,6 +43,7 @@ PetscErrorCode PgOverrideRestore(PgOverride *o, PetscBool used[])
     PetscCall(PetscOptionsUsed(NULL, o->name[i] + 1, &now));
     if (used) used[i] = now;
     PetscCall(PetscOptionsClearValue(NULL, o->name[i]));
+    PetscCall(PgOptionsSetBy(o->name[i], PG_OPTION_USER));
     if (o->had[i]) {
       const char *value;
       PetscBool   set;

@@ -7,7 +7,7 @@ man=$SOURCE_DIR/docs/man
 
 # A run that is not to happen: the last option is none. Its complaint names all unknown options.
 none=-no_such_option
-porograin=('-fluid ns -pressure implicit -bc_top flux' '-fluid ns -pressure explicit'
+porograin=('-fluid ns -pressure implicit -bc_top flux -bc_top_flux -0.1' '-fluid ns -pressure explicit'
   '-case packing -packing_generate square -packing_count 9 -dt 1e-7 -end_time 1e-6')
 porograin_study=("-study_sizes 31 -study_solvers $SOURCE_DIR/options/solvers/all.txt")
 porograin_plot=('-plot_gnuplot none')

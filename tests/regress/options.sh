@@ -143,14 +143,12 @@ row 2 'option -pressure_pc_factor_mat_solver_type: mumpss is refused by PETSc: .
 row 2 'option -pressure_mat_type: .*aij type, .*sbaij' -fluid ns -pressure_mat_type sbaij
 
 # ---- contradictions: both options ----
-row 2 'options -end_time and -panel_displacement contradict' -end_time 1e-3 -panel_displacement 1e-3
-row 2 'options -bc_left_pressure and -bc_left impermeable contradict' \
+row 2 'options -end_time 1e-3 and -panel_displacement 1e-3 contradict each other' -end_time 1e-3 -panel_displacement 1e-3
+row 2 'option -bc_left_pressure 1e5 has no effect with -bc_left impermeable: only a drained side has a pressure' \
   -fluid ns -bc_left impermeable -bc_left_pressure 1e5
-row 2 'options -bc_top_flux and -bc_top drained contradict' -fluid ns -bc_top_flux -0.13
-row 2 'options -permeability and -permeability_law kozeny_carman contradict' \
+row 2 'option -bc_top flux needs -bc_top_flux W, .*\[m/s\]' -fluid ns -bc_top flux
+row 2 'options -permeability 1e-6 and -permeability_law kozeny_carman contradict each other' \
   -fluid darcy -permeability 1e-6 -permeability_law kozeny_carman
-row 2 'option -coupling_scheme has a meaning only with -coupling drag_and_pressure' \
-  -fluid darcy -coupling drag -coupling_scheme staggered
 row 2 'options -coupling_scheme projection and -ns_continuity solenoidal contradict' \
   -fluid ns -ns_continuity solenoidal -coupling drag_and_pressure -coupling_scheme projection
 row 2 '-coupling_scheme staggered .* unstable for a fluid step of 1e-06 s: it must be below .* 3\.6e-09 s' \

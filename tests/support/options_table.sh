@@ -23,7 +23,8 @@ them by the test `regress.help`; not to be edited.
 - All numbers are in SI units; a number without unit has no dimension. Equations are those of Li, Chu & Sheng (2007).
 - A default "of the case" is chosen by the case; where the meaning says what the default is, the column is empty. Cases bring
   options along, too: what a case sets stands at the top of `src/cases/NAME.c`, and what the user gives wins.
-- An option that is misspelt, out of bounds, or has no meaning in the run ends it before anything is written, with exit status 2.
+- An option that is misspelt, out of bounds, or without effect in the run ends it before anything is written, with exit status 2;
+  one that stands in a file and is overruled by something given later is named in a line of warning instead.
 - `-help` is short, `-help SECTION` lists one of the sections below, `-help NAME` one option, `-help petsc` what PETSc has to say,
   `-version` the versions of everything.
 - Options of PETSc itself (`-log_view`, `-options_left`, ...) work as everywhere.

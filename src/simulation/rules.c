@@ -1,0 +1,76 @@
+/* Which options have an effect only in company: a table, so that none is passed over in silence. What to do about one that
+   has none is decided in one place, PgOptionsCheck(). */
+#include "simulationimpl.h"
+
+#define SIDE(side)                                                                                                     \
+  {"-bc_" side "_pressure", "-bc_" side " drained", "only a drained side has a pressure"},                             \
+  {                                                                                                                    \
+    "-bc_" side "_flux", "-bc_" side " flux", "only a flux side has a flux"                                            \
+  }
+
+static const char solves[] = "only -pressure implicit has a solver and its tolerances";
+
+static const PgOptionRule rules[] = {
+    {"-fluid_every", "-fluid darcy|ns", "there is no water to step"},
+    {"-output_every", "-output", "there is no file for snapshots"},
+    {"-checkpoint_every", "-checkpoint", "there is no file for checkpoints"},
+    {"-progress_every", "-progress auto|lines", "there are no lines of progress"},
+    {"-plate_friction", "plates", "there is nothing that it belongs to"},
+    {"-wall_friction", "walls", "there is nothing that it belongs to"},
+    {"-wall_servo_gain", "servo walls", "there is nothing that it belongs to"},
+    {"-packing_aspect", "-packing_count", "-packing_size has an aspect of its own"},
+    {"-packing_second_share", "-packing_second_radius", "there is one size of discs only"},
+    {"-packing_plate_distance", "-packing_plates", "there are no plates"},
+    {"-packing_side_distance", "-fluid darcy|ns", "only water sees these sides"},
+    {"-packing_porosity", "-fluid darcy|ns", "only water sees a porosity"},
+    {"-ns_*", "-fluid ns", "it belongs to the Navier-Stokes scheme"},
+    {"-permeability", "-fluid darcy", "the Navier-Stokes scheme has a drag law (-ns_drag) in its place"},
+    {"-permeability_law", "-fluid darcy", "the Navier-Stokes scheme has a drag law (-ns_drag) in its place"},
+    {"-coupling_scheme", "-coupling drag_and_pressure", "the drag alone needs no scheme"},
+    {"-porosity_rate", "-fluid darcy or -ns_continuity averaged",
+     "div u = 0 does not contain the rate of the porosity"},
+    SIDE("left"),
+    SIDE("right"),
+    SIDE("bottom"),
+    SIDE("top"),
+    {"-bc_surface_sum", "-bc_tracking surface", "discs do not become surface later"},
+    {"-sph_operators", "no -sph_gradient or no -sph_laplacian", "these two say all that there is to choose"},
+    {"-pressure_sweeps", "-pressure explicit", "only explicit steps are made of sweeps"},
+    {"-pressure_dump_every", "-pressure_dump", "there is no file for systems"},
+    {"-pressure_pc_lag", "-pressure implicit", solves},
+    {"-pressure_rebuild_factor", "-pressure implicit", solves},
+    {"-pressure_error_if_not_converged", "-pressure implicit", solves},
+    {"-pressure_ksp_*", "-pressure implicit", solves},
+    {"-pressure_pc_*", "-pressure implicit", solves},
+    {"-pressure_sub_*", "-pressure implicit", solves},
+    {"-pressure_mg_*", "-pressure implicit", solves},
+    {"-pressure_mat_*", "-pressure implicit", solves},
+    {"-pressure_pc_hypre_*", "-pressure_pc_type hypre", "it belongs to another preconditioner"},
+};
+
+/* What is true of the run beside its options. */
+static PetscBool Fact(void *simulation, const char name[])
+{
+  PgSimulation sim = (PgSimulation)simulation;
+  PetscInt     plates, walls, servos = 0;
+
+  if (PgDemGetPlateCount(sim->dem, &plates) || PgDemGetWallCount(sim->dem, &walls)) return PETSC_TRUE;
+  if (!strcmp(name, "plates")) return (PetscBool)(plates > 0);
+  for (PetscInt k = 0; k < walls; k++) {
+    PgWall wall;
+    if (PgDemGetWall(sim->dem, k, &wall)) return PETSC_TRUE;
+    servos += wall.kind == PG_WALL_SERVO;
+  }
+  return (PetscBool)(!strcmp(name, "walls") ? walls > 0 : servos > 0);
+}
+
+PetscErrorCode PgSimulationCheckOptions(PgSimulation sim)
+{
+  const PgOptionRules all      = {sizeof rules / sizeof *rules, rules, Fact, sim};
+  PgPressure          pressure = NULL;
+
+  PetscFunctionBeginUser;
+  if (sim->pore) PetscCall(PgPoreGetParts(sim->pore, NULL, &pressure));
+  PetscCall(PgOptionsCheck(sim->comm, &all, pressure ? PgPressureProbeOptions : NULL, pressure));
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,131 @@
+# processors: 1
+# timeout: 120
+# Options without effect: each row of src/simulation/rules.c ends a run before anything is written, with a message that
+# names option, value and why; unless it stands in a file and was overruled later, which one line of warning says.
+. "$SOURCE_DIR/tests/support/regress.sh"
+
+options="$SOURCE_DIR/options"
+: >refused
+
+# refuses options...: several at once, all of them are named
+refuses() {
+  expect_error 2 '^porograin: error: ' "$POROGRAIN" -end_time 1e-5 "$@"
+  if grep -q '^warning: without' expect_error.out; then fail "warned and refused: $*"; fi
+  sed -n 's/^porograin: error: //p' expect_error.out >>refused
+}
+
+# said MESSAGE...: these and no others
+said() {
+  printf '%s\n' "$@" | sort >expected
+  sort refused | diff expected - || fail 'other messages than expected'
+  cat refused >>all-refused
+  : >refused
+}
+
+refuses -fluid_every 4 -output_every 1e-5 -checkpoint_every 1e-5 -progress none -progress_every 1e-5 -wall_friction 0.3 \
+  -wall_servo_gain 0.1 -ns_theta 0.6
+said 'option -fluid_every 4 has no effect with -fluid none (the default): there is no water to step' \
+  'option -output_every 1e-5 has no effect without -output: there is no file for snapshots' \
+  'option -checkpoint_every 1e-5 has no effect without -checkpoint: there is no file for checkpoints' \
+  'option -progress_every 1e-5 has no effect with -progress none: there are no lines of progress' \
+  'option -wall_friction 0.3 has no effect in a run without walls: there is nothing that it belongs to' \
+  'option -wall_servo_gain 0.1 has no effect in a run without servo walls: there is nothing that it belongs to' \
+  'option -ns_theta 0.6 has no effect with -fluid none (the default): it belongs to the Navier-Stokes scheme'
+
+refuses -fluid ns -permeability 1e-6 -permeability_law constant -coupling_scheme staggered -porosity_rate sampled \
+  -bc_left impermeable -bc_left_pressure 2e5 -bc_left_flux 0.1 -bc_right flux -bc_right_flux 0 -bc_right_pressure 2e5 \
+  -bc_bottom natural -bc_bottom_flux 0.1 -bc_bottom_pressure 2e5 -bc_top_flux -0.13 -bc_surface_sum 0.9 \
+  -sph_operators paper -sph_gradient corrected -sph_laplacian paper -pressure implicit -pressure_sweeps 3 \
+  -pressure_dump_every 5 -pressure_pc_type jacobi -pressure_pc_hypre_type boomeramg
+said \
+  'option -permeability 1e-6 has no effect with -fluid ns: the Navier-Stokes scheme has a drag law (-ns_drag) in its place' \
+  'option -permeability_law constant has no effect with -fluid ns: the Navier-Stokes scheme has a drag law (-ns_drag) in its place' \
+  'option -coupling_scheme staggered has no effect with -coupling drag (the default): the drag alone needs no scheme' \
+  'option -porosity_rate sampled has no effect with -fluid ns, with -ns_continuity solenoidal (the default): div u = 0 does not contain the rate of the porosity' \
+  'option -bc_left_pressure 2e5 has no effect with -bc_left impermeable: only a drained side has a pressure' \
+  'option -bc_left_flux 0.1 has no effect with -bc_left impermeable: only a flux side has a flux' \
+  'option -bc_right_pressure 2e5 has no effect with -bc_right flux: only a drained side has a pressure' \
+  'option -bc_bottom_pressure 2e5 has no effect with -bc_bottom natural: only a drained side has a pressure' \
+  'option -bc_bottom_flux 0.1 has no effect with -bc_bottom natural: only a flux side has a flux' \
+  'option -bc_top_flux -0.13 has no effect with -bc_top drained (the default): only a flux side has a flux' \
+  'option -bc_surface_sum 0.9 has no effect with -bc_tracking initial (the default): discs do not become surface later' \
+  'option -sph_operators paper has no effect with -sph_gradient corrected, with -sph_laplacian paper: these two say all that there is to choose' \
+  'option -pressure_sweeps 3 has no effect with -pressure implicit: only explicit steps are made of sweeps' \
+  'option -pressure_dump_every 5 has no effect without -pressure_dump: there is no file for systems' \
+  'option -pressure_pc_hypre_type boomeramg has no effect with -pressure_pc_type jacobi: it belongs to another preconditioner'
+
+solves='has no effect with -pressure explicit: only -pressure implicit has a solver and its tolerances'
+refuses -fluid darcy -ns_drag linear -bc_top impermeable -bc_top_pressure 2e5 -bc_right_flux 1 -pressure explicit \
+  -pressure_pc_lag 2 -pressure_rebuild_factor 2 \
+  -pressure_error_if_not_converged false -pressure_ksp_type cg -pressure_pc_type gamg -pressure_sub_pc_type icc \
+  -pressure_mg_levels_ksp_type cg -pressure_mat_type aij
+said 'option -ns_drag linear has no effect with -fluid darcy: it belongs to the Navier-Stokes scheme' \
+  'option -bc_top_pressure 2e5 has no effect with -bc_top impermeable: only a drained side has a pressure' \
+  'option -bc_right_flux 1 has no effect with -bc_right drained (the default): only a flux side has a flux' \
+  "option -pressure_pc_lag 2 $solves" "option -pressure_rebuild_factor 2 $solves" \
+  "option -pressure_error_if_not_converged false $solves" "option -pressure_ksp_type cg $solves" \
+  "option -pressure_pc_type gamg $solves" "option -pressure_sub_pc_type icc $solves" \
+  "option -pressure_mg_levels_ksp_type cg $solves" "option -pressure_mat_type aij $solves"
+
+packing=(-case packing -packing_generate random -packing_size 0.1,0.1 -packing_target_porosity 0.3 -dt 1e-6)
+refuses "${packing[@]}" -packing_aspect 2 \
+  -packing_second_share 0.2 -packing_plate_distance 0.3 -packing_side_distance 1 -packing_porosity 0.2 -plate_friction 0.1
+said 'option -packing_aspect 2 has no effect without -packing_count: -packing_size has an aspect of its own' \
+  'option -packing_second_share 0.2 has no effect without -packing_second_radius: there is one size of discs only' \
+  'option -packing_plate_distance 0.3 has no effect without -packing_plates: there are no plates' \
+  'option -packing_side_distance 1 has no effect with -fluid none (the default): only water sees these sides' \
+  'option -packing_porosity 0.2 has no effect with -fluid none (the default): only water sees a porosity' \
+  'option -plate_friction 0.1 has no effect in a run without plates: there is nothing that it belongs to'
+
+# No row of the table is left out.
+sed -n 's/^ *{"\(-[a-z_]*\)\*\{0,1\}",.*/\1/p; s/^ *SIDE("\([a-z]*\)").*/-bc_\1_pressure\n-bc_\1_flux/p' \
+  "$SOURCE_DIR/src/simulation/rules.c" >rows
+[ "$(wc -l <rows)" -ge 35 ] || fail "only $(wc -l <rows) rows found"
+while read -r row; do
+  grep -q -- "^option $row" all-refused || fail "no test of the row $row"
+done <rows
+
+# ---- the same place: an error, whichever stands first; another place: the later one wins, and a line says so ----
+refuses -dt 1e-6 -dt_safety 0.2
+said 'options -dt 1e-6 and -dt_safety 0.2 contradict each other: give one'
+printf -- '-fluid ns\n-pressure_ksp_type cg\n-pressure explicit\n' >one.opts
+refuses -options_file one.opts
+said "option -pressure_ksp_type cg has no effect with -pressure explicit ('one.opts'): only -pressure implicit has a solver and its tolerances"
+# what the file says comes before: the option on top of it is in vain
+refuses -options_file "$options/panel_case1_ns_paper.opts" -pressure_ksp_type cg
+said "option -pressure_ksp_type cg has no effect with -pressure explicit ('$options/panel_case1_ns_paper.opts'): only -pressure implicit has a solver and its tolerances"
+# a case brings options along; they are chosen with it
+refuses -case column_terzaghi -ns_theta 0.6
+said 'option -ns_theta 0.6 has no effect with -fluid darcy: it belongs to the Navier-Stokes scheme'
+
+# warns LINE options...: runs to its end, and this is the one line of warning about options ("": none)
+warns() {
+  local line=$1
+  shift
+  "$POROGRAIN" "$@" -output run.h5 >run.log 2>&1 </dev/null || { cat run.log >&2; fail "$*"; }
+  { grep '^warning: without effect' run.log || true; } >warning
+  printf '%s' "${line:+$line$'\n'}" | diff - warning || fail "another warning: $*"
+}
+short=(-panel_columns 4 -panel_rows 9 -panel_displacement 6.18e-7)
+case1="$options/panel_case1_ns.opts"
+warns '' -options_file "$case1" "${short[@]}"
+warns 'warning: without effect: -pressure_sweeps 1 (-pressure implicit overrules it)' \
+  -options_file "$options/panel_case1_ns_paper.opts" -pressure implicit -pressure_ksp_type cg "${short[@]}"
+# files in their order; the solver's own options are read by nobody now
+warns 'warning: without effect: -pressure_ksp_norm_type unpreconditioned, -pressure_ksp_type cg, -pressure_pc_hypre_boomeramg_agg_nl 1, -pressure_pc_type hypre (-pressure explicit overrules them)' \
+  -options_file "$case1" -options_file "$options/solvers/cg-hypre-aggressive.opts" -pressure explicit "${short[@]}"
+warns 'warning: without effect: -bc_left_pressure 1e5 (-bc_left impermeable overrules it); -bc_top_flux -0.13 (-bc_top drained overrules it)' \
+  -options_file "$options/panel_case2_ns_paper.opts" -bc_top drained -bc_left impermeable "${short[@]}"
+grep -q 'left: impermeable' run.log && grep -q 'top: drained at 100000' run.log || fail 'the sides of the command line'
+warns 'warning: without effect: -dt 2e-6 (-dt_safety 0.25 overrules it); -panel_displacement 0.012 (-end_time 1e-5 overrules it)' \
+  -options_file "$case1" "${short[@]:0:4}" -end_time 1e-5 -dt_safety 0.25
+expect_match 'time step .*, 25.0 % of the critical' run.log
+# water options of the file in a dry run
+warns "$(sed -n 's/^\(-[a-z_]*  *[^ ]*\).*/\1/p' "$case1" | sed 's/  */ /' |
+  grep -E '^-(fluid_|ns_|bc_|coupling|initial|porosity|pressure|sph)' | sort |
+  awk '{ list = list (list ? ", " : "") $0 } END { print "warning: without effect: " list " (-fluid none overrules them)" }')" \
+  -options_file "$case1" "${short[@]}" -fluid none
+# PETSC_OPTIONS is a file, too
+PETSC_OPTIONS='-pressure_ksp_rtol 1e-9' warns 'warning: without effect: -pressure_ksp_rtol 1e-9 (-pressure explicit overrules it)' \
+  -fluid ns -pressure explicit "${short[@]}"
+[ -e run.h5 ] || fail 'no results'
