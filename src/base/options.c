@@ -93,19 +93,20 @@ static PetscErrorCode ReadReal(PetscOptionItems *block, const char *name, const 
 /* " Pa" for messages and tables, nothing for a number without dimension. */
 static const char *After(const char *unit) { return unit[0] == '1' && !unit[1] ? "" : unit; }
 
-/* ">= 0, <= 1", as far as there are bounds. */
-static void BoundsOfReal(PetscReal lower, PetscReal upper, char out[96])
+/* ">= 0 Pa, <= 1 Pa" with "," or " and" between them, as far as there are bounds. */
+static void BoundsOfReal(PetscReal lower, PetscReal upper, const char unit[], const char between[], char out[96])
 {
-  char low[32], high[32];
+  const char *gap = unit[0] ? " " : "";
+  char        low[48], high[48];
 
   out[0] = '\0';
   if (lower == (PG_POSITIVE))
-    (void)snprintf(low, sizeof low, "> 0");
+    (void)snprintf(low, sizeof low, "> 0%s%s", gap, unit);
   else
-    (void)snprintf(low, sizeof low, ">= %g", (double)lower);
-  (void)snprintf(high, sizeof high, "<= %g", (double)upper);
+    (void)snprintf(low, sizeof low, ">= %g%s%s", (double)lower, gap, unit);
+  (void)snprintf(high, sizeof high, "<= %g%s%s", (double)upper, gap, unit);
   if (lower > -1e300 && upper < 1e300)
-    (void)snprintf(out, 96, "%s, %s", low, high);
+    (void)snprintf(out, 96, "%s%s %s", low, between, high);
   else if (lower > -1e300 || upper < 1e300)
     (void)snprintf(out, 96, "%s", lower > -1e300 ? low : high);
 }
@@ -117,20 +118,17 @@ PetscErrorCode PgOptionReal(PetscOptionItems *PetscOptionsObject, const char nam
   char        initial[32], now[32], bounds[96], help[512];
 
   PetscFunctionBeginUser;
-  BoundsOfReal(lower, upper, bounds);
+  BoundsOfReal(lower, upper, "", ",", bounds);
   PetscCall(PetscSNPrintf(help, sizeof help, "%s [%s]", text, unit));
   PetscCall(Remember(PetscOptionsObject, name, Number(initial, *value), unit, bounds, text));
   PetscCall(Given(PetscOptionsObject, name, &given));
   if (given) PetscCall(ReadReal(PetscOptionsObject, name, given, value));
   PetscCall(PrintHelp(PetscOptionsObject, name, Number(now, *value), help));
   if (set) *set = (PetscBool)(given != NULL);
-  PgInputCheck(!given || *value >= lower, PetscOptionsObject->comm,
-               "option -%s%s: %s%s%s is out of range, it must be %s %g%s%s", Prefix(PetscOptionsObject), name + 1,
-               given, gap, After(unit),
-               lower == (PG_POSITIVE) ? ">" : ">=", lower == (PG_POSITIVE) ? 0.0 : (double)lower, gap, After(unit));
-  PgInputCheck(!given || *value <= upper, PetscOptionsObject->comm,
-               "option -%s%s: %s%s%s is out of range, it must be <= %g%s%s", Prefix(PetscOptionsObject), name + 1,
-               given, gap, After(unit), (double)upper, gap, After(unit));
+  BoundsOfReal(lower, upper, After(unit), " and", bounds);
+  PgInputCheck(!given || (*value >= lower && *value <= upper), PetscOptionsObject->comm,
+               "option -%s%s: %s%s%s is out of range, it must be %s", Prefix(PetscOptionsObject), name + 1, given, gap,
+               After(unit), bounds);
   PetscFunctionReturn(0);
 }
 

@@ -2,11 +2,13 @@
 #include "casesimpl.h"
 
 static const PgCaseInfo *const cases[] = {
-    &PgCasePanel,          &PgCasePacking,           &PgCaseBedDarcy,       &PgCaseBedErgun,
-    &PgCaseBedNsToDarcy,   &PgCaseColumnHydrostatic, &PgCaseColumnTerzaghi, &PgCaseColumnSeepage,
-    &PgCaseUndrained,      &PgCaseDiscCollision,     &PgCaseDiscOnPlane,    &PgCaseDiscOnIncline,
-    &PgCaseLatticeModulus, &PgCaseBiaxial,           &PgCaseOperatorMms,    &PgCasePressureMms,
-    &PgCaseUpTerzaghi,     &PgCaseUpMandel,          &PgCaseUpFooting,
+    &PgCasePanel,         &PgCasePacking,           &PgCaseBox,
+    &PgCaseBedDarcy,      &PgCaseBedErgun,          &PgCaseBedNsToDarcy,
+    &PgCaseColumn,        &PgCaseColumnHydrostatic, &PgCaseColumnTerzaghi,
+    &PgCaseColumnSeepage, &PgCaseUndrained,         &PgCaseDiscCollision,
+    &PgCaseDiscOnPlane,   &PgCaseDiscOnIncline,     &PgCaseLatticeModulus,
+    &PgCaseBiaxial,       &PgCaseOperatorMms,       &PgCasePressureMms,
+    &PgCaseUpTerzaghi,    &PgCaseUpMandel,          &PgCaseUpFooting,
 };
 enum { CASES = sizeof cases / sizeof *cases };
 static const char *names[CASES];

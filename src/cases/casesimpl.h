@@ -3,9 +3,10 @@
 
 #include <porograin/cases.h>
 
-PETSC_INTERN const PgCaseInfo PgCasePanel, PgCasePacking;
+PETSC_INTERN const PgCaseInfo PgCasePanel, PgCasePacking, PgCaseBox;
 PETSC_INTERN const PgCaseInfo PgCaseBedDarcy, PgCaseBedErgun, PgCaseBedNsToDarcy;
-PETSC_INTERN const PgCaseInfo PgCaseColumnHydrostatic, PgCaseColumnTerzaghi, PgCaseColumnSeepage, PgCaseUndrained;
+PETSC_INTERN const PgCaseInfo PgCaseColumn, PgCaseColumnHydrostatic, PgCaseColumnTerzaghi, PgCaseColumnSeepage,
+    PgCaseUndrained;
 PETSC_INTERN const PgCaseInfo PgCaseDiscCollision, PgCaseDiscOnPlane, PgCaseDiscOnIncline, PgCaseLatticeModulus,
     PgCaseBiaxial, PgCaseUpTerzaghi, PgCaseUpMandel, PgCaseUpFooting, PgCaseOperatorMms, PgCasePressureMms;
 

@@ -1,4 +1,4 @@
-/* A saturated column at rest under gravity.
+/* A saturated column at rest under gravity, the plainest of the columns: `column` is another name for it.
 
    Physics   grains settle under their weight in water, drained at the top, on an impermeable bottom; the water acts on
              them by drag and pressure gradient (-coupling drag_and_pressure), so that they feel buoyancy.
@@ -21,6 +21,8 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   PetscFunctionReturn(0);
 }
 
+const PgCaseInfo PgCaseColumn = {"column", "the same as column_hydrostatic", Create, PgColumnSetup, PgColumnDestroy,
+                                 NULL};
 const PgCaseInfo PgCaseColumnHydrostatic = {"column_hydrostatic",
                                             "saturated column settling to rest under gravity",
                                             Create,

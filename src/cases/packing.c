@@ -18,6 +18,8 @@ typedef struct {
   PetscReal     plate_distance; /* of the discs that belong to a plate, over the mean radius [1] */
   PetscReal     side_distance;  /* of the discs that form a side for the water, over the mean radius [1] */
   PetscReal     top_velocity;   /* upward [m/s] */
+  PetscReal     end_time;       /* [s] 0: to be given */
+  PetscBool     weigh;          /* the bottom wall shows its load */
 } PackingCase;
 
 /* ---- options ---- */
@@ -221,6 +223,32 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   PetscFunctionReturn(0);
 }
 
+/* A packing within walls that settles under its weight: a whole problem without further options, and with
+   `packing`'s other ones. Exact at rest: the bottom bears the weight of the discs, as the history's load. */
+static PetscErrorCode CreateBox(MPI_Comm comm, void **context)
+{
+  PetscBool    file, size, walls, periodic = PETSC_FALSE;
+  PackingCase *c;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-packing", &file));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-packing_size", &size));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-packing_walls", &walls));
+  PetscCall(PetscOptionsGetBool(NULL, NULL, "-packing_periodic", &periodic, NULL));
+  PetscCall(PgCaseDefaults("-gravity 0,-9.81 -dem_local_damping 0.7 -wall_friction 0"));
+  if (!file)
+    PetscCall(PgCaseDefaults(size ? "-packing_generate hexagonal" : "-packing_generate hexagonal -packing_count 400"));
+  if (!walls) { /* with -packing FILE, too, from whose name this one goes on */
+    PetscCall(PetscOptionsSetValue(NULL, "-packing_walls", periodic ? "bottom,top" : "left,right,bottom,top"));
+    PetscCall(PgOptionsSetBy("-packing_walls", PG_OPTION_CASE));
+  }
+  PetscCall(Create(comm, context));
+  c           = (PackingCase *)*context;
+  c->end_time = 0.02;
+  c->weigh    = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
 /* ---- discs and box ---- */
 
 /* The smallest box that holds all discs. */
@@ -370,6 +398,7 @@ static PetscErrorCode AddWalls(const PackingCase *c, const PgBox *box, PgCaseSet
   for (int s = 0; s < PG_SIDE_COUNT; s++) {
     const int axis = s / 2, upper = s % 2;
     PgWall    wall = {.kind = PG_WALL_FIXED, .friction = -1};
+    PetscInt  index;
 
     if (!(c->walls & 1U << s)) continue;
     PetscCall(PetscStrncpy(wall.name, side_words[s], sizeof wall.name));
@@ -379,7 +408,8 @@ static PetscErrorCode AddWalls(const PackingCase *c, const PgBox *box, PgCaseSet
       wall.kind        = PG_WALL_MOVING;
       wall.velocity[1] = c->top_velocity;
     }
-    PetscCall(PgDemAddWall(setup->dem, &wall, NULL));
+    PetscCall(PgDemAddWall(setup->dem, &wall, &index));
+    if (c->weigh && s == PG_SIDE_BOTTOM) setup->load_wall = index;
   }
   PetscFunctionReturn(0);
 }
@@ -453,6 +483,7 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
     if (setup->pore && !c->porosity_set) PetscCall(BulkPorosity(setup->comm, &box, &f, &c->porosity));
   }
   PetscCall(MakeDiscs(c, &packing, &box, f.radius_mean, setup));
+  if (c->end_time > 0) setup->end_time = c->end_time;
   PetscCall(PgPackingDestroy(&packing));
   PetscFunctionReturn(0);
 }
@@ -464,5 +495,7 @@ static PetscErrorCode Destroy(void **context)
   PetscFunctionReturn(0);
 }
 
+const PgCaseInfo PgCaseBox = {
+    "box", "a packing within four walls that settles under gravity", CreateBox, Setup, Destroy, NULL};
 const PgCaseInfo PgCasePacking = {
     "packing", "discs from a file, on a lattice, or pressed together at random", Create, Setup, Destroy, NULL};

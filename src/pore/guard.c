@@ -5,16 +5,9 @@
 
 /* ---- what is known to go wrong ---- */
 
-static PetscBool AnySide(PgPore pore, PgBoundaryKind kind)
-{
-  for (int s = 0; s < PG_SIDE_COUNT; s++)
-    if (pore->boundary[s].kind == kind) return PETSC_TRUE;
-  return PETSC_FALSE;
-}
-
 static PetscBool NaturalSides(PgPore pore)
 {
-  return (PetscBool)(pore->fluid == PG_FLUID_NS && AnySide(pore, PG_BC_NATURAL));
+  return (PetscBool)(pore->fluid == PG_FLUID_NS && PgPoreAnySide(pore, PG_BC_NATURAL));
 }
 
 static PetscBool SmallTheta(PgPore pore) { return PgPoreThetaIsSmall(pore); }
@@ -34,7 +27,7 @@ static PetscBool Adrift(PgPore pore)
   PgPressureMethod method;
 
   (void)PgPressureGetMethod(pore->pressure, &method);
-  return (PetscBool)(method == PG_PRESSURE_EXPLICIT && !AnySide(pore, PG_BC_DRAINED));
+  return (PetscBool)(method == PG_PRESSURE_EXPLICIT && !PgPoreAnySide(pore, PG_BC_DRAINED));
 }
 
 static PetscBool NothingDetached(PgPore pore) { return (PetscBool)(pore->detach_n > 0.9 && pore->detach_sum <= 0.0); }

@@ -140,6 +140,13 @@ PETSC_INTERN PetscErrorCode PgPressureGradient(PgPore pore);
 /* Laplacian of the excess pressure of t_n on the geometry of t_n+1, before the solve. */
 PETSC_INTERN PetscErrorCode PgPressureLaplacian(PgPore pore, const PgPoreArrays *s, PetscReal laplacian[]);
 
+static inline PetscBool PgPoreAnySide(PgPore pore, PgBoundaryKind kind)
+{
+  for (int s = 0; s < PG_SIDE_COUNT; s++)
+    if (pore->boundary[s].kind == kind) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 static inline PetscBool PgPoreIsStaggered(PgPore pore)
 {
   return (PetscBool)(pore->coupling == PG_COUPLING_DRAG_AND_PRESSURE && pore->coupling_scheme == PG_SCHEME_STAGGERED);

@@ -142,6 +142,39 @@ static PetscErrorCode WarnOfFreeSides(PgPore pore)
   PetscFunctionReturn(0);
 }
 
+/* Water is incompressible: without a drained side nothing holds the level of its pressure, and what flows in cannot
+   leave. */
+static PetscErrorCode WarnOfClosedBox(PgPore pore)
+{
+  PgPressureMethod method;
+  PgPoreArrays     s;
+  PgExactSum       exact[2] = {{.not_finite = 0}, {.not_finite = 0}};
+  PetscReal        inflow[2]; /* [m2/s]: net, and without signs */
+  MPI_Comm         comm = PgParticlesComm(pore->particles);
+
+  PetscFunctionBeginUser;
+  if (PgPoreAnySide(pore, PG_BC_DRAINED)) PetscFunctionReturn(0);
+  PetscCall(PgPressureGetMethod(pore->pressure, &method));
+  PetscCall(PgPoreGetArrays(pore, &s));
+  for (PetscInt a = 0; a < s.owned; a++) {
+    const PetscReal q = PgBoundaryInflow(pore, &s, a);
+    PgExactSumAdd(&exact[0], q);
+    PgExactSumAdd(&exact[1], PetscAbsReal(q));
+  }
+  PetscCall(PgExactSumReduce(comm, 2, exact, inflow));
+  /* what flows in on one side may leave by another: equal but for rounding */
+  if (PetscAbsReal(inflow[0]) > 1e-9 * inflow[1])
+    PetscCall(PetscPrintf(comm, "warning: no side is drained, and the flux sides let %g m2/s of water %s: %s\n",
+                          (double)PetscAbsReal(inflow[0]), inflow[0] > 0.0 ? "in, which cannot leave" : "out",
+                          method == PG_PRESSURE_EXPLICIT
+                              ? "the mean pressure changes by as much in each step, without end"
+                              : "that part is left out of the mass balance (pressure_removed in the history)"));
+  else if (method == PG_PRESSURE_EXPLICIT)
+    PetscCall(PetscPrintf(comm, "warning: no side is drained, and explicit sweeps do not keep the mean pressure: it "
+                                "drifts; -pressure implicit keeps it\n"));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPoreSetUp(PgPore pore, PetscReal dt_f)
 {
   PgPoreArrays s;
@@ -168,6 +201,7 @@ PetscErrorCode PgPoreSetUp(PgPore pore, PetscReal dt_f)
   PetscCall(PgPoreRefresh(pore));
   PetscCall(PgPressureUpdate(pore->pressure, NULL));
   PetscCall(WarnOfFreeSides(pore));
+  PetscCall(WarnOfClosedBox(pore));
   PetscFunctionReturn(0);
 }
 
@@ -185,6 +219,7 @@ PetscErrorCode PgPoreRestart(PgPore pore)
   }
   PetscCall(PgPressureUpdate(pore->pressure, NULL));
   PetscCall(WarnOfFreeSides(pore));
+  PetscCall(WarnOfClosedBox(pore));
   PetscFunctionReturn(0);
 }
 

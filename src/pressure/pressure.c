@@ -141,6 +141,8 @@ static PetscErrorCode CheckTolerances(PgPressure q)
 
 PetscErrorCode PgPressureSetFromOptions(PgPressure q)
 {
+  PetscBool user_lag, user_error;
+
   PetscFunctionBeginUser;
   PetscOptionsBegin(q->comm, "", PG_PRESSURE_SECTION, "");
   PetscCall(ChooseMethod(q, PetscOptionsObject));
@@ -151,15 +153,17 @@ PetscErrorCode PgPressureSetFromOptions(PgPressure q)
                          "flow; best the pressure of the drained sides",
                          "Pa", -1e12, 1e12, &q->reference, NULL));
   PetscCall(PgOptionInt(PetscOptionsObject, "-pressure_pc_lag",
-                        "solves one preconditioner serves at most; 0: until iterations grow or discs are renumbered", 0,
-                        PETSC_MAX_INT, &q->pc_lag, NULL));
+                        "solves one preconditioner serves at most; 0: until iterations grow or discs are renumbered; "
+                        "default: 0, but 1 for a single sweep (-pressure_ksp_type richardson -pressure_ksp_max_it 1)",
+                        0, PETSC_MAX_INT, &q->pc_lag, &user_lag));
   PetscCall(PgOptionReal(PetscOptionsObject, "-pressure_rebuild_factor",
                          "a new preconditioner when iterations exceed this times those of the first solve after the "
                          "last build, plus 2",
                          "1", 1.0, 1e6, &q->rebuild_factor, NULL));
   PetscCall(PgOptionBool(PetscOptionsObject, "-pressure_error_if_not_converged",
-                         "end the run when a solve fails or its true residual is above tolerance",
-                         &q->error_if_not_converged, NULL));
+                         "end the run when a solve fails or its true residual is above tolerance; default: true, but "
+                         "false for a single sweep",
+                         &q->error_if_not_converged, &user_error));
   PetscCall(PgOptionString(PetscOptionsObject, "-pressure_dump",
                            "file for matrix, right-hand side and solution of chosen solves (PETSc binary)", q->dump,
                            sizeof q->dump, NULL));
@@ -173,6 +177,8 @@ PetscErrorCode PgPressureSetFromOptions(PgPressure q)
   if (q->dump[0]) PetscCall(PgPressureCheckDump(q));
   PetscCall(PgOptionsRead(q->comm, "pressure_", ReadSolverOptions, PgPressureProbeOptions, q));
   PetscCall(CheckTolerances(q));
+  if (q->fixed_work && !user_error) q->error_if_not_converged = PETSC_FALSE;
+  if (q->fixed_work && !user_lag) q->pc_lag = 1; /* the diagonal is that of this matrix */
   q->from_options = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
@@ -197,6 +203,8 @@ PetscErrorCode PgPressureView(PgPressure q, PetscViewer viewer)
   if (q->dump[0])
     PetscCall(PetscViewerASCIIPrintf(viewer, "systems are written to %s every %" PetscInt_FMT " solves (0: once)\n",
                                      q->dump, q->dump_every));
+  if (implicit && q->fixed_work)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "a single sweep in each solve: convergence is not asked for\n"));
   if (implicit) {
     KSPType   type;
     PC        pc;

@@ -33,6 +33,7 @@ struct PgPressure_s {
   PetscInt      pc_lag;                 /* solves a preconditioner may serve, 0: any number */
   PetscReal     rebuild_factor;         /* of the iterations after a build, before the next build */
   PetscBool     error_if_not_converged; /* a solve that fails ends the run */
+  PetscBool     fixed_work;             /* one iteration of Richardson's method: a sweep, no solution */
   PetscBool     residual_requested;     /* explicit: the next solve computes its residual */
   PetscBool     from_options;           /* options are read */
   PetscBool     user_type, user_atol;   /* -pressure_ksp_type, -pressure_ksp_atol given */

@@ -51,6 +51,22 @@ static PetscErrorCode SettleNorm(KSP ksp)
   PetscFunctionReturn(0);
 }
 
+/* Whoever asks Richardson's method for one iteration wants a sweep, not a solution: no norm is computed, and none asked
+   for. One who switches the norm off by hand, with any number of iterations, must say as well that no solution is
+   wanted. */
+static PetscErrorCode SettleWork(KSP ksp, PetscBool user_norm, PetscBool *fixed)
+{
+  PetscBool richardson;
+  PetscInt  most;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPRICHARDSON, &richardson));
+  PetscCall(KSPGetTolerances(ksp, NULL, NULL, NULL, &most));
+  *fixed = (PetscBool)(richardson && most == 1 && !user_norm);
+  if (*fixed) PetscCall(KSPSetNormType(ksp, KSP_NORM_NONE));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPressureMentionOptions(void)
 {
   static const struct {
@@ -122,7 +138,7 @@ PetscErrorCode PgPressureSolverFromOptions(PgPressure q, KSP ksp)
   if (!user_norm) PetscCall(SettleNorm(ksp));
   PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &preonly));
   if (preonly) PetscCall(KSPSetInitialGuessNonzero(ksp, PETSC_FALSE)); /* it knows no guess */
-  (void)q;
+  PetscCall(SettleWork(ksp, user_norm, &q->fixed_work));
   PetscFunctionReturn(0);
 }
 

@@ -7,9 +7,10 @@
 # steps in which differences come and go, are allowed. Seen: 2e-14 at most.
 tolerance=1e-12
 
-# Neither the norm nor convergence is asked for, and the diagonal is that of this step.
-richardson="-pressure implicit -pressure_ksp_type richardson -pressure_pc_type jacobi -pressure_ksp_norm_type none \
-  -pressure_error_if_not_converged false -pressure_pc_lag 1"
+richardson="-pressure implicit -pressure_ksp_type richardson -pressure_pc_type jacobi"
+# More than one sweep: neither the norm nor convergence is asked for, and the diagonal is that of this step. One sweep is
+# understood without that.
+none="-pressure_ksp_norm_type none -pressure_error_if_not_converged false -pressure_pc_lag 1"
 
 # run_panel END options...: fluid steps of 4e-6 s, with a snapshot after each
 run_panel() {
@@ -26,7 +27,8 @@ same() {
   for end in 4e-6 1.6e-4; do
     run_panel $end "$@" -pressure explicit -pressure_sweeps "$sweeps" -output "$name-explicit.h5"
     # shellcheck disable=SC2086
-    run_panel $end "$@" $richardson -pressure_ksp_max_it "$sweeps" -output "$name-richardson.h5"
+    run_panel $end "$@" $richardson $(if [ "$sweeps" != 1 ]; then echo "$none"; fi) -pressure_ksp_max_it "$sweeps" \
+      -output "$name-richardson.h5"
     "$SUPPORT/compare_results" "$name-explicit.h5" "$name-richardson.h5" $tolerance pressure fluid_velocity >differ.txt ||
       { cat differ.txt >&2; fail "$name, to t = $end s"; }
   done
@@ -36,6 +38,21 @@ same paper 1 -fluid ns -ns_continuity solenoidal -coupling drag -sph_operators p
 same darcy 1 -fluid darcy -coupling drag -porosity_rate sampled -bc_top flux -bc_top_flux -0.13
 same sweeps 3 -fluid ns -ns_theta 0.7 -coupling drag_and_pressure -ns_continuity averaged -sph_gradient corrected \
   -bc_tracking surface
+
+# Everything said by hand is the same.
+# shellcheck disable=SC2086
+{
+  run_panel 4e-6 -fluid ns $richardson $none -pressure_ksp_max_it 1 -output spelt.h5
+  run_panel 4e-6 -fluid ns $richardson -pressure_ksp_max_it 1 -output short.h5
+}
+expect_match 'a single sweep in each solve: convergence is not asked for' log
+expect_same_results spelt.h5 short.h5 /snapshots
+# Who asks for convergence, or for a norm, gets it.
+# shellcheck disable=SC2086
+for asked in '-pressure_error_if_not_converged true' '-pressure_ksp_norm_type unpreconditioned' '-pressure_ksp_norm_type none'; do
+  expect_error 3 'pressure: the solver' "$POROGRAIN" -panel_columns 10 -dt 2e-6 -fluid_every 2 -end_time 4e-6 -fluid ns \
+    $richardson -pressure_ksp_max_it 1 $asked
+done
 
 # Two sweeps are not one: the comparison can fail.
 run_panel 4e-6 -fluid ns -pressure explicit -output one.h5

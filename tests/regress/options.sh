@@ -70,17 +70,17 @@ messages=1
 # ---- out of range: value, unit and bound ----
 row 2 'option -panel_columns: 2 is out of range, .* between 3 and 40000' -panel_columns 2
 row 2 'option -panel_rows: 2 is out of range, .* between 3 and' -panel_rows 2
-row 2 'option -dt: 0 s is out of range, it must be > 0 s' -dt 0
-row 2 'option -dt: -1e-6 s is out of range, it must be > 0 s' -dt -1e-6
+row 2 'option -dt: 0 s is out of range, it must be > 0 s and <= 1000 s$' -dt 0
+row 2 'option -dt: -1e-6 s is out of range, it must be > 0 s and <= 1000 s$' -dt -1e-6
 row 2 'option -dt: 1e-05 s is above the critical time step 6\.4[0-9]*e-06 s' -dt 1e-5
-row 2 'option -dem_local_damping: 1\.5 is out of range, it must be <= 1$' -dem_local_damping 1.5
+row 2 'option -dem_local_damping: 1\.5 is out of range, it must be >= 0 and <= 1$' -dem_local_damping 1.5
 row 2 'option -dem_mu_s: -0\.1 is out of range, it must be >= 0$' -dem_mu_s -0.1
-row 2 'option -solid_density: -2000 kg/m3 is out of range, it must be > 0 kg/m3' -solid_density -2000
-row 2 'option -ns_theta: 0 is out of range, it must be >= 0.01$' -fluid ns -ns_theta 0
-row 2 'option -ns_theta: 1\.01 is out of range, it must be <= 1$' -fluid ns -ns_theta 1.01
-row 2 'option -permeability: 0 m4/\(N s\) is out of range, it must be > 0 m4/\(N s\)' -fluid darcy -permeability 0
-row 2 'option -detach_porosity: 1\.2 is out of range, it must be <= 0.99$' -fluid ns -detach_porosity 1.2
-row 2 'option -sph_laplacian_eta: -0\.1 is out of range, it must be >= 0$' -fluid ns -sph_laplacian_eta -0.1
+row 2 'option -solid_density: -2000 kg/m3 is out of range, it must be > 0 kg/m3 and <= 1e\+06 kg/m3$' -solid_density -2000
+row 2 'option -ns_theta: 0 is out of range, it must be >= 0.01 and <= 1$' -fluid ns -ns_theta 0
+row 2 'option -ns_theta: 1\.01 is out of range, it must be >= 0.01 and <= 1$' -fluid ns -ns_theta 1.01
+row 2 'option -permeability: 0 m4/\(N s\) is out of range, it must be > 0 m4/\(N s\) and <= 1000 m4/\(N s\)$' -fluid darcy -permeability 0
+row 2 'option -detach_porosity: 1\.2 is out of range, it must be >= 0 and <= 0.99$' -fluid ns -detach_porosity 1.2
+row 2 'option -sph_laplacian_eta: -0\.1 is out of range, it must be >= 0 and <= 1$' -fluid ns -sph_laplacian_eta -0.1
 row 2 'option -fluid_every: 0 is out of range, .* between 1 and' -fluid ns -fluid_every 0
 row 2 'option -pressure_sweeps: 0 is out of range, .* between 1 and' -fluid ns -pressure explicit -pressure_sweeps 0
 row 2 'option -panel_columns: -5 is out of range, .* between 3 and' -panel_columns -5
@@ -161,7 +161,11 @@ row 2 'option -bc_left drained is not read in this run, it needs -fluid darcy or
 row 2 'option -pressure implicit is not read in this run, it needs -fluid' -fluid none -pressure implicit
 row 2 'option -pressure_mg_levels_ksp_type cg is not read in this run, it needs -fluid' -pressure_mg_levels_ksp_type cg
 row 2 'unknown option -bc_letf drained; did you mean -bc_left \(which needs -fluid' -bc_letf drained
-row 2 'option -column_load 5 is not read in this run, it needs -case column_hydrostatic or ' -column_load 5
+row 2 'option -column_load 5 is not read in this run, it needs -case column or -case column_hydrostatic or ' -column_load 5
+messages=2
+row 2 'option -dt_safety 0\.2 is of no use to this case' -case up_terzaghi -dt_safety 0.2
+settle
+messages=1
 row 2 'unknown option -pressure_pc_gamg_threshold 0.1: misspelt, or of a solver that this run does not use' \
   -fluid ns -pressure_pc_gamg_threshold 0.1
 

@@ -4,6 +4,11 @@
 # number of ranks, and what was generated can be restarted.
 . "$SOURCE_DIR/tests/support/regress.sh"
 
+# -case box, without a word more: at rest the bottom bears the weight of its discs, 400 pi (5e-3)^2 2000 9.81 N/m. Contact
+# forces end where motion is damped out; seen: 616.3805.
+"$POROGRAIN" -case box -output box.h5 >box.out
+expect_close "$(csv_column box.csv load | tail -n 1)" 616.38048 1e-3
+
 # The panel of 7 columns by itself, and from the file it wrote, dry: every bit of all snapshots and of the history.
 common='-dem_local_damping 0.7 -end_time 2e-3'
 # shellcheck disable=SC2086

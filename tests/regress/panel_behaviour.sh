@@ -113,6 +113,21 @@ done
 finish closed-explicit closed-implicit
 # Seen: 6.6e5 Pa at 0.3 ms and -1.5e6 Pa at 1 ms (panel of 25 columns: -6.5e6 Pa at 3 ms).
 within "$(largest closed-explicit.csv pressure_mean)" 2e5 1e7 'largest mean pressure, explicit [Pa]'
+expect_match 'warning: no side is drained, and explicit sweeps do not keep the mean pressure' closed-explicit.log
+if grep -q '^warning' closed-implicit.log; then fail 'a warning where the mean pressure is kept'; fi
+# 0.13 m/s on the 11 discs of the top, 0.01 m wide; what comes in through one side and leaves by another is no matter
+# shellcheck disable=SC2086
+{
+  start filled 0 $panel $impermeable -panel_columns 12 -dt 2e-6 -end_time 2e-6 -bc_top flux -bc_top_flux -0.13
+  start swollen 0 $panel $impermeable -panel_columns 12 -dt 2e-6 -end_time 2e-6 -bc_left flux -bc_left_flux -0.13 \
+    -pressure explicit
+  start through 0 $panel $impermeable -panel_columns 12 -dt 2e-6 -end_time 2e-6 -bc_top flux -bc_top_flux -0.13 \
+    -bc_bottom flux -bc_bottom_flux -0.13
+}
+finish filled swollen through
+expect_match 'warning: no side is drained, .* let 0\.0143 m2/s of water in, which cannot leave: .*pressure_removed' filled.log
+expect_match 'warning: no side is drained, .* of water out: the mean pressure changes .* in each step' swollen.log
+if grep -q '^warning' through.log; then fail 'a warning where as much leaves as comes in'; fi
 # The guess carried along the characteristics has a mean of its own: 0.9 Pa away.
 within "$(largest closed-implicit.csv pressure_mean)" 99900 100100 'largest mean pressure, implicit [Pa]'
 expect_close "$(csv_column closed-implicit.csv pressure_mean | tail -n 1)" 1e5 100

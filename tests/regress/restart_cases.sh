@@ -26,6 +26,7 @@ check() {
 check bed_darcy 1 1e-2 -case bed_darcy
 check bed_ergun 1 4e-3 -case bed_ergun
 check bed_ns_to_darcy 2 4e-3 -case bed_ns_to_darcy
+check column 1 4e-3 -case column
 check column_hydrostatic 1 4e-3 -case column_hydrostatic
 check column_terzaghi 2 4e-3 -case column_terzaghi
 check column_seepage 1 4e-3 -case column_seepage
@@ -34,6 +35,7 @@ check disc_collision 1 2e-4 -case disc_collision -dt 1e-6
 check disc_on_plane 1 5e-3 -case disc_on_plane
 check disc_on_incline 1 5e-3 -case disc_on_incline
 check lattice_modulus 1 1e-3 -case lattice_modulus -dem_energy
+check box 2 2e-3 -case box -packing_count 100
 check biaxial 2 4e-3 -case biaxial -biaxial_columns 6 -dem_energy -dem_c_n 100
 check panel 2 4e-3 -case panel -panel_columns 6 -dem_energy -dem_local_damping 0.2 -dem_c_s 200 -dem_global_damping 10
 # Discs fly through the periodic boundary and are dealt out anew on the way.
