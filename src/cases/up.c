@@ -131,7 +131,7 @@ PetscErrorCode PgUpGetSettlement(PgUp up, PetscReal *settlement)
 /* The owned node nearest to x; of several the one with the smallest number, on any number of ranks. */
 static PetscErrorCode Nearest(PgUp up, const PetscReal x[2], const PgFemNodes *nodes, PetscInt *node, PetscMPIInt *rank)
 {
-  PetscReal   mine      = PETSC_MAX_REAL, all;
+  PetscReal   mine = PETSC_MAX_REAL, all = PETSC_MAX_REAL;
   PetscInt    number[2] = {PETSC_MAX_INT, -1}, least;
   PetscMPIInt me;
 

@@ -99,8 +99,8 @@ static PetscErrorCode Try(const char file[], char reason[REASON])
     DMPolytopeType type;
     PetscCall(DMPlexGetCellType(dm, c, &type));
     if (type != DM_POLYTOPE_QUADRILATERAL)
-      (void)snprintf(reason, REASON, "cell %ld is a %s, not a quadrilateral (in Gmsh: Recombine Surface)",
-                     (long)(c - start + 1), DMPolytopeTypes[type]);
+      (void)snprintf(reason, REASON, "cell %" PetscInt_FMT " is a %s, not a quadrilateral (in Gmsh: Recombine Surface)",
+                     c - start + 1, DMPolytopeTypes[type]);
   }
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
   PetscCall(DMGetCoordinateSection(dm, &section));
