@@ -1,6 +1,7 @@
 /* The object: settings, set-up, and what it shows of its state. */
 #include "femimpl.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 PetscErrorCode PgFemCreate(MPI_Comm comm, PgFem *out)
@@ -232,28 +233,30 @@ PetscErrorCode PgFemView(PgFem fem, PetscViewer viewer)
 {
   static const char *const elements[] = {"Q1-Q1", "Q2-Q1", "Q1, undrained"};
   const PgFemMaterial     *m          = &fem->material[0].material;
+  char                     line[512]; /* PETSc would print 3 as "3." */
 
   PetscFunctionBeginUser;
   PetscCall(PetscViewerASCIIPrintf(viewer, "up: %" PetscInt_FMT " nodes, %" PetscInt_FMT " elements %s of %s%s",
                                    fem->all_nodes, fem->all_cells, elements[fem->element],
                                    fem->file[0] ? "mesh file " : "the rectangle", fem->file));
-  if (fem->element == PG_FEM_Q1Q1)
-    PetscCall(PetscViewerASCIIPrintf(viewer, ", pressure projection %g/M", (double)fem->stabilisation));
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-                                   "\nup: E %g Pa, nu %g, alpha %g, K_s %g Pa, K_f %g Pa, n %g, k %g m2, "
-                                   "mu_f %g Pa s, rho_s %g, rho_f %g kg/m3\n",
-                                   (double)m->E, (double)m->nu, (double)m->alpha, (double)m->K_s, (double)m->K_f,
-                                   (double)m->n, (double)m->k, (double)m->mu_f, (double)m->rho_s, (double)m->rho_f));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "up: M %g Pa, storage %g 1/Pa, c_v %g m2/s; theta %g",
-                                   (double)PgFemConstrainedModulus(m), (double)PgFemStorage(m),
-                                   (double)PgFemConsolidation(m), (double)fem->theta));
-  if (fem->start_steps)
-    PetscCall(PetscViewerASCIIPrintf(viewer, " (1 in the first %" PetscInt_FMT " steps)", fem->start_steps));
-  if (fem->inertia) PetscCall(PetscViewerASCIIPrintf(viewer, "; inertia, damping %g 1/s", (double)fem->damping));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "; boundaries"));
+  (void)snprintf(line, sizeof line, ", pressure projection %g/M", (double)fem->stabilisation);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s; boundaries", fem->element == PG_FEM_Q1Q1 ? line : ""));
   for (PetscInt b = 0; b < fem->boundaries; b++)
     PetscCall(PetscViewerASCIIPrintf(viewer, " %s", fem->boundary[b].name));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  (void)snprintf(
+      line, sizeof line,
+      "E %g Pa, nu %g, alpha %g, K_s %g Pa, K_f %g Pa, n %g, k %g m2, mu_f %g Pa s, rho_s %g, rho_f %g kg/m3",
+      (double)m->E, (double)m->nu, (double)m->alpha, (double)m->K_s, (double)m->K_f, (double)m->n, (double)m->k,
+      (double)m->mu_f, (double)m->rho_s, (double)m->rho_f);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nup: %s\n", line));
+  (void)snprintf(line, sizeof line, "M %g Pa, storage %g 1/Pa, c_v %g m2/s; theta %g",
+                 (double)PgFemConstrainedModulus(m), (double)PgFemStorage(m), (double)PgFemConsolidation(m),
+                 (double)fem->theta);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "up: %s", line));
+  if (fem->start_steps)
+    PetscCall(PetscViewerASCIIPrintf(viewer, " (1 in the first %" PetscInt_FMT " steps)", fem->start_steps));
+  (void)snprintf(line, sizeof line, "; inertia, damping %g 1/s", (double)fem->damping);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", fem->inertia ? line : ""));
   PetscFunctionReturn(0);
 }
 

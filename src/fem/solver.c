@@ -157,17 +157,36 @@ PetscErrorCode PgFemProbeOptions(void *context)
   PetscFunctionReturn(0);
 }
 
+/* A uniform pressure is free: then as much water must flow in as out, and its mean stays as it is. */
+static PetscErrorCode CheckBalance(PgFem fem)
+{
+  const Vec   *constant;
+  MatNullSpace space;
+  PetscInt     count;
+  PetscReal    norm;
+  PetscScalar  part;
+
+  PetscFunctionBeginUser;
+  PetscCall(MatGetNullSpace(fem->A, &space));
+  PetscCall(MatNullSpaceGetVecs(space, NULL, &count, &constant));
+  PetscCall(VecDot(fem->b, constant[0], &part));
+  PetscCall(VecNorm(fem->b, NORM_2, &norm));
+  PgInputCheck(
+      PetscAbsScalar(part) <= 1e-8 * norm, fem->comm,
+      "up: more water flows in than out (%g of the loads), but water and grains cannot be compressed, no side is "
+      "drained and none gives way",
+      (double)(PetscAbsScalar(part) / norm));
+  PetscCall(MatNullSpaceRemove(space, fem->b));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgFemSolve(PgFem fem)
 {
   PetscReal          rhs, residual, rtol;
   KSPConvergedReason reason;
 
   PetscFunctionBeginUser;
-  if (fem->singular) {
-    MatNullSpace constant;
-    PetscCall(MatGetNullSpace(fem->A, &constant));
-    PetscCall(MatNullSpaceRemove(constant, fem->b));
-  }
+  if (fem->singular) PetscCall(CheckBalance(fem));
   PetscCall(VecNorm(fem->b, NORM_2, &rhs));
   PetscCall(VecSet(fem->w, 0.0));
   PetscCall(KSPSolve(fem->ksp, fem->b, fem->w));
