@@ -76,6 +76,7 @@ memory() { # shellcheck disable=SC2046
 case1() {
   put implicit "$(cpu "$POROGRAIN" -options_file "$options/panel_case1_ns.opts" -output run.h5)"
   put implicit_icc "$(cpu "$POROGRAIN" -options_file "$options/panel_case1_ns.opts" -options_file "$options/solvers/cg-icc.opts" -output run.h5)"
+  put implicit_oneway "$(cpu "$POROGRAIN" -options_file "$options/panel_case1_ns.opts" -options_file "$options/solvers/cg-hypre-oneway.opts" -output run.h5)"
   put explicit "$(cpu "$POROGRAIN" -options_file "$options/panel_case1_ns.opts" -pressure explicit -fluid_every 1 -dt 1e-6 -output run.h5)"
   put paper "$(cpu "$POROGRAIN" -options_file "$options/panel_case1_ns_paper.opts" -output run.h5)"
   put darcy "$(cpu "$POROGRAIN" -options_file "$options/panel_case1_darcy.opts" -pressure explicit -fluid_every 1 -dt 1e-6 -output run.h5)"
@@ -86,9 +87,9 @@ pressure() { # kept preconditioners over consecutive steps of Case I
     s=30
     [ "$w" = 25 ] || s=8
     "$POROGRAIN_STUDY" -study stepping -options_file "$options/panel_case1_ns.opts" -panel_columns "$w" \
-      -panel_rows $((2 * w + 1)) -study_solvers "$options/solvers/all.txt" -study_only cg-icc,cg-hypre,cg-cholmod \
+      -panel_rows $((2 * w + 1)) -study_solvers "$options/solvers/all.txt" -study_only cg-icc,cg-hypre,cg-hypre-oneway,cg-cholmod \
       -study_steps $s -study_output stepping >/dev/null 2>&1
-    for k in icc hypre cholmod; do
+    for k in icc hypre hypre-oneway cholmod; do
       put "$k$w" "$(awk -F, -v s="cg-$k" '$1 == s { print $12 }' stepping.csv)"
     done
     rm -f dump*
@@ -136,12 +137,14 @@ fi
 row memory "memory, dry, 999697 discs" "bytes/disc" "<= 500"
 row implicit "Case I to 1.2 cm, N-S, implicit (M = 50, hypre)" "CPU s" "<= 8.5"
 row implicit_icc "the same with cg-icc.opts" "CPU s" "<= 8.5"
+row implicit_oneway "the same with cg-hypre-oneway.opts" "CPU s" "<= 8.5"
 row explicit "the same, explicit sweep every step, dt 1e-6" "CPU s" "<= 40"
 row paper "panel_case1_ns_paper.opts (explicit, dt 1e-6)" "CPU s" "<= 40"
 row darcy "Case I, Darcy, explicit sweep every step, dt 1e-6" "CPU s" "<= 0.6 x" explicit "N-S"
 for w in 25 316; do
   goal=$([ "$w" = 25 ] && echo "<= 0.25" || echo "<= 0.75")
   row "hypre$w" "pressure step, kept hypre, $(discs "$w") discs" "us/unknown" "$goal" "plain$w" "plain PETSc"
+  row "hypre-oneway$w" "pressure step, kept hypre, half smoothing, $(discs "$w") discs" "us/unknown" "$goal" "plain$w" "plain PETSc"
   row "icc$w" "pressure step, kept icc, $(discs "$w") discs" "us/unknown" "$goal" "plainicc$w" "plain PETSc"
   row "cholmod$w" "pressure step, kept CHOLMOD, $(discs "$w") discs" "us/unknown" "$goal"
 done
