@@ -155,6 +155,9 @@ PETSC_INTERN PetscErrorCode PgFemLayOutNodes(PgFem fem, const PetscInt number[])
 PETSC_INTERN PetscErrorCode PgFemLayOutCells(PgFem fem, const PetscInt number[]);
 PETSC_INTERN PetscErrorCode PgFemLayOutBoundaries(PgFem fem);
 
+/* gmshcheck.c: for one rank; reason stays empty when PETSc can be trusted with the file */
+PETSC_INTERN PetscErrorCode PgFemGmshCheck(const char file[], char reason[], size_t size);
+
 /* gmsh.c: the mesh of a file, before it is distributed, and the names of its physical groups */
 typedef struct {
   PetscInt dimension, tag;

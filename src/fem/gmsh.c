@@ -20,7 +20,8 @@ static PetscBool ReadGroup(const char line[], PgFemGroup *group)
   if (end == line || group->dimension < 0 || group->dimension > 3) return PETSC_FALSE;
   line       = end;
   group->tag = (PetscInt)strtol(line, &end, 10);
-  if (end == line || group->tag <= 0) return PETSC_FALSE;
+  if (end == line || *end != ' ' || group->tag <= 0) return PETSC_FALSE;
+  if (to[1 + strspn(to + 1, " \t\r\n")]) return PETSC_FALSE;
   (void)snprintf(group->name, PG_FEM_NAME, "%.*s", (int)(to - from - 1), from + 1);
   return PETSC_TRUE;
 }
@@ -125,6 +126,7 @@ PetscErrorCode PgFemGmshRead(MPI_Comm comm, const char file[], DM *dm, PetscInt 
   *group  = NULL;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) PetscCall(ReadGroups(file, groups, group, reason));
+  if (rank == 0 && !reason[0]) PetscCall(PgFemGmshCheck(file, reason, sizeof reason));
   if (rank == 0 && !reason[0]) PetscCall(Try(file, reason));
   PetscCallMPI(MPI_Bcast(reason, REASON, MPI_CHAR, 0, comm));
   PetscCallMPI(MPI_Bcast(groups, 1, MPIU_INT, 0, comm));

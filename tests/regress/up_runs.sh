@@ -147,6 +147,16 @@ bad "mesh file 'triangle.msh': cell [0-9]+ is a triangle, not a quadrilateral" -
 head -n 30 good.msh >cut.msh
 bad "mesh file 'cut.msh': " -case up_terzaghi -up_mesh cut.msh
 sed 's/^16 3 2 1 1 7 8 12 11$/16 3 2 1 1 7 8 12 99/' good.msh >node.msh
-bad "mesh file 'node.msh': " -case up_terzaghi -up_mesh node.msh
+bad "mesh file 'node.msh': line 44: there is no node 99" -case up_terzaghi -up_mesh node.msh
+# what PETSc would take on trust
+ranks='1'
+sed 's/^7 0.6 0.45 0$/7 0.6 0.450/' good.msh >place.msh
+bad "mesh file 'place.msh': line 20: not a node" -case up_terzaghi -up_mesh place.msh
+sed 's/^7 0.6 0.45 0$/8 0.6 0.45 0/' good.msh >twice.msh
+bad "mesh file 'twice.msh': node 8 stands twice" -case up_terzaghi -up_mesh twice.msh
+sed 's/^12$/99999999/' good.msh >many.msh
+bad "mesh file 'many.msh': line 13: no such number of nodes can be in the file" -case up_terzaghi -up_mesh many.msh
+sed 's/^2.2 0 8$/1.0 0 8/' good.msh >old.msh
+bad "mesh file 'old.msh': MSH version 1 is not one of 2.2, 4.0, 4.1" -case up_terzaghi -up_mesh old.msh
 sed 's/"left"/left/' good.msh >names.msh
 bad "mesh file 'names.msh': physical name 4 of 5" -case up_terzaghi -up_mesh names.msh
