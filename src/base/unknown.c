@@ -134,12 +134,38 @@ static PetscErrorCode NotThisRun(MPI_Comm comm, const char name[], const char va
   PetscFunctionReturn(0);
 }
 
+/* An option of a solver whose type was changed by a later file or the command line: what the first solver wanted has no
+   effect on the second. `pattern` is the known option "-pressure_*" and its like. */
+static PetscErrorCode OfFormerSolver(const PgKnownOption *pattern, const char name[], const char value[],
+                                     PetscBool *fine)
+{
+  static const char *const type[] = {"pc_type", "ksp_type", "pc_hypre_type"};
+  const char              *bare   = pattern->name + (pattern->name[0] == '-');
+  char                     option[256], by[256];
+
+  PetscFunctionBeginUser;
+  (void)snprintf(option, sizeof option, "-%s", name);
+  for (size_t k = 0; k < sizeof type / sizeof *type && !*fine; k++) {
+    const char *choice = NULL;
+    PetscBool   given;
+    (void)snprintf(by, sizeof by, "-%.*s%s", (int)(strlen(bare) - 1), bare, type[k]);
+    PetscCall(PetscOptionsFindPair(NULL, NULL, by, &choice, &given));
+    if (given) PetscCall(PgIdleBecause(option, value, by, choice, fine));
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Refuse(MPI_Comm comm, const char name[], const char given[], PetscInt *refused)
 {
   const PgKnownOption *exact = PgKnownFind(name), *pattern = PgKnownPattern(name), *nearest;
   const char          *value = given ? given : "", *gap = given ? " " : "";
 
   PetscFunctionBeginUser;
+  if (pattern && pattern->active && strchr(pattern->name, '*')) {
+    PetscBool fine = PETSC_FALSE;
+    PetscCall(OfFormerSolver(pattern, name, value, &fine));
+    if (fine) PetscFunctionReturn(0);
+  }
   if (!exact && pattern && !pattern->active) exact = pattern; /* no run so far has made what would read it */
   if (exact && !exact->active && (exact->needs[0] || exact != pattern)) {
     PetscCall(NotThisRun(comm, name, value, exact->needs, refused));
@@ -147,7 +173,9 @@ static PetscErrorCode Refuse(MPI_Comm comm, const char name[], const char given[
   }
   (*refused)++;
   nearest = PgKnownNearest(name);
-  if (!nearest && pattern)
+  if (exact && exact->active) /* no other name is nearer */
+    PetscCall(PgReport(comm, "option -%s%s%s is not read by the solver of this run", name, gap, value));
+  else if (!nearest && pattern)
     PetscCall(PgReport(comm, "unknown option -%s%s%s: misspelt, or of a solver that this run does not use", name, gap,
                        value));
   else if (!nearest)

@@ -77,24 +77,26 @@ static PetscErrorCode MakeCompatible(PgPressure q, PetscReal norm, PetscReal *re
 }
 
 /* The mean of the pressure of each island, before the solve, and given back after it. */
-static PetscErrorCode NoteMeans(PgPressure q, PetscReal **before)
+static PetscErrorCode NoteMeans(PgPressure q)
 {
+  PetscReal *before = q->island_mean;
+
   PetscFunctionBeginUser;
-  *before = NULL;
   if (!q->islands) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(q->islands, before));
   if (q->whole) {
     PetscScalar sum;
     PetscCall(VecSum(q->x, &sum));
-    (*before)[0] = PetscRealPart(sum);
+    before[0] = PetscRealPart(sum);
   } else {
-    PetscCall(PgPressureIslandMeans(q, q->x, *before));
+    PetscCall(PgPressureIslandMeans(q, q->x, before));
   }
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode KeepMeans(PgPressure q, PetscReal **before)
+static PetscErrorCode KeepMeans(PgPressure q)
 {
+  PetscReal *before = q->island_mean;
+
   PetscFunctionBeginUser;
   if (!q->islands) PetscFunctionReturn(0);
   if (q->whole) {
@@ -102,13 +104,12 @@ static PetscErrorCode KeepMeans(PgPressure q, PetscReal **before)
     PetscInt    global;
     PetscCall(VecGetSize(q->x, &global));
     PetscCall(VecSum(q->x, &after));
-    PetscCall(VecShift(q->x, ((*before)[0] - after) / (PetscReal)global));
+    PetscCall(VecShift(q->x, (before[0] - after) / (PetscReal)global));
   } else {
     PetscCall(PgPressureIslandMeans(q, q->x, q->island_sum));
-    for (PetscInt i = 0; i < q->islands; i++) (*before)[i] -= q->island_sum[i];
-    PetscCall(PgPressureIslandShift(q, q->x, *before));
+    for (PetscInt i = 0; i < q->islands; i++) before[i] -= q->island_sum[i];
+    PetscCall(PgPressureIslandShift(q, q->x, before));
   }
-  PetscCall(PetscFree(*before));
   PetscFunctionReturn(0);
 }
 
@@ -221,7 +222,7 @@ static void JudgePreconditioner(PgPressure q, PetscInt iterations, PetscBool goo
 
 static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
 {
-  PetscReal          rhs, guess, residual, rtol = 0.0, atol = 0.0, scale, *before;
+  PetscReal          rhs, guess, residual, rtol = 0.0, atol = 0.0, scale;
   PetscBool          fresh, good;
   KSPConvergedReason reason;
   KSPNormType        norm;
@@ -232,7 +233,7 @@ static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
   PetscCall(VecNorm(q->b, NORM_2, &rhs));
   PetscCall(VecNorm(q->x, NORM_2, &guess));
   PetscCall(ChooseTolerance(q, rhs, guess, &rtol, &atol));
-  PetscCall(NoteMeans(q, &before));
+  PetscCall(NoteMeans(q));
   if (q->islands) {
     PetscCall(MakeCompatible(q, rhs, &stats->removed));
     PetscCall(VecNorm(q->b, NORM_2, &rhs));
@@ -249,7 +250,7 @@ static PetscErrorCode Solve(PgPressure q, PgPressureStats *stats)
     PetscCall(Run(q, rhs, rtol, atol, &reason, &residual));
     good = (PetscBool)(reason > 0 && residual <= 10.0 * PetscMax(rtol * rhs, atol));
   }
-  PetscCall(KeepMeans(q, &before));
+  PetscCall(KeepMeans(q));
   scale = rhs > 0.0 ? rhs : 1.0;
   PetscCall(KSPGetIterationNumber(q->ksp, &stats->iterations));
   PetscCall(KSPGetNormType(q->ksp, &norm));

@@ -92,8 +92,20 @@ static PetscBool IsRoot(const PetscReal fixed[], const PetscReal label[], const 
   return (PetscBool)(fixed[a] == 0.0 && label[a] == (PetscReal)id[a]);
 }
 
-/* Labels of all islands, in the order of ranks; to be freed. */
-static PetscErrorCode GatherRoots(PgPressure q, const PetscReal fixed[], const PetscReal label[], PetscReal **root)
+/* Room for what is kept of each island, and of each rank. What is there is lost. */
+static PetscErrorCode ReserveIslands(PgPressure q, PetscInt islands)
+{
+  PetscFunctionBeginUser;
+  if (islands <= q->islands_room) PetscFunctionReturn(0);
+  q->islands_room = 2 * islands;
+  PetscCall(PetscFree4(q->island_size, q->island_sum, q->island_mean, q->island_root));
+  PetscCall(PetscMalloc4(q->islands_room, &q->island_size, q->islands_room, &q->island_sum, q->islands_room,
+                         &q->island_mean, q->islands_room, &q->island_root));
+  PetscFunctionReturn(0);
+}
+
+/* Labels of all islands into island_root, in the order of ranks. */
+static PetscErrorCode GatherRoots(PgPressure q, const PetscReal fixed[], const PetscReal label[])
 {
   const PetscInt *id;
   PetscMPIInt     size, rank, mine = 0, total = 0, *counts, *starts;
@@ -103,38 +115,35 @@ static PetscErrorCode GatherRoots(PgPressure q, const PetscReal fixed[], const P
   PetscCallMPI(MPI_Comm_rank(q->comm, &rank));
   PetscCall(PgParticlesGetIds(q->particles, &id));
   for (PetscInt a = 0; a < q->owned; a++) mine += IsRoot(fixed, label, id, a);
-  PetscCall(PetscMalloc2(size, &counts, size, &starts));
+  if (!q->island_counts) PetscCall(PetscMalloc1(2 * size, &q->island_counts));
+  counts = q->island_counts;
+  starts = q->island_counts + size;
   PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, counts, 1, MPI_INT, q->comm));
   for (PetscMPIInt r = 0; r < size; r++) {
     starts[r] = total;
     total += counts[r];
   }
   q->islands = total;
-  PetscCall(PetscMalloc1(total, root));
+  PetscCall(ReserveIslands(q, total));
   for (PetscInt a = 0, at = starts[rank]; a < q->owned; a++)
-    if (IsRoot(fixed, label, id, a)) (*root)[at++] = label[a];
-  PetscCallMPI(MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, *root, counts, starts, MPIU_REAL, q->comm));
-  PetscCall(PetscFree2(counts, starts));
+    if (IsRoot(fixed, label, id, a)) q->island_root[at++] = label[a];
+  PetscCallMPI(MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, q->island_root, counts, starts, MPIU_REAL, q->comm));
   PetscFunctionReturn(0);
 }
 
 /* Which island each disc belongs to, and how many discs they have. */
 static PetscErrorCode Number(PgPressure q, const PetscReal fixed[], const PetscReal label[])
 {
-  PetscReal *root;
-
   PetscFunctionBeginUser;
-  PetscCall(GatherRoots(q, fixed, label, &root));
-  PetscCall(PetscFree2(q->island_size, q->island_sum));
-  PetscCall(PetscCalloc2(q->islands, &q->island_size, q->islands, &q->island_sum));
+  PetscCall(GatherRoots(q, fixed, label));
+  for (PetscInt i = 0; i < q->islands; i++) q->island_size[i] = 0.0;
   for (PetscInt a = 0; a < q->owned; a++) {
     PetscInt i = 0;
-    while (i < q->islands && (fixed[a] != 0.0 || root[i] != label[a])) i++;
+    while (i < q->islands && (fixed[a] != 0.0 || q->island_root[i] != label[a])) i++;
     q->island[a] = i < q->islands ? i : -1;
     if (i < q->islands) q->island_size[i] += 1.0;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, q->island_size, (PetscMPIInt)q->islands, MPIU_REAL, MPIU_SUM, q->comm));
-  PetscCall(PetscFree(root));
   PetscFunctionReturn(0);
 }
 
@@ -146,6 +155,7 @@ PetscErrorCode PgPressureFindIslands(PgPressure q)
   PetscFunctionBeginUser;
   q->islands = q->singular ? 1 : 0;
   q->whole   = q->singular;
+  PetscCall(ReserveIslands(q, q->islands));
   if (!q->symmetric) PetscFunctionReturn(0); /* what blocks of another matrix can bear is not known */
   if (q->tied) PetscFunctionReturn(0);
   PetscCall(Reserve(q));
@@ -204,6 +214,7 @@ PetscErrorCode PgPressureDestroyIslands(PgPressure q)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree3(q->island, q->island_parent, q->tie));
-  PetscCall(PetscFree2(q->island_size, q->island_sum));
+  PetscCall(PetscFree4(q->island_size, q->island_sum, q->island_mean, q->island_root));
+  PetscCall(PetscFree(q->island_counts));
   PetscFunctionReturn(0);
 }

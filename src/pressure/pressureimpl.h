@@ -62,7 +62,11 @@ struct PgPressure_s {
   PetscInt  *tie;                      /* (island_capacity) entry that ties an owned disc to a fixed one, -1: none */
   PetscInt   island_capacity;          /* owned discs */
   PetscBool  tied;                     /* all free discs are, on all ranks: there are no islands */
-  PetscReal *island_size, *island_sum; /* (islands) discs, of all ranks; scratch */
+  PetscReal *island_size, *island_sum; /* (islands_room) discs, of all ranks; scratch */
+  PetscReal *island_mean;              /* (islands_room) mean of the pressure before a solve */
+  PetscReal *island_root;              /* (islands_room) label */
+  PetscInt   islands_room;
+  int       *island_counts; /* (2*ranks) scratch */
 
   /* the matrix */
   Mat       A;

@@ -23,6 +23,11 @@ static PetscErrorCode AddState(PgSimulation sim, PetscInt *builds, PgState state
   PgPressure pressure;
 
   PetscFunctionBeginUser;
+  PetscCall(PgStateAddReals(state, "simulation_radii", PG_STATE_MATCH,
+                            "the sum of all radii, by the options of the case, [m]", 1, &sim->disc_sums[0]));
+  PetscCall(PgStateAddReals(state, "simulation_masses", PG_STATE_MATCH,
+                            "the mass of all discs, by the options of the case and -solid_density, [kg/m]", 1,
+                            &sim->disc_sums[1]));
   PetscCall(PgStateAddReals(state, "simulation_dt", PG_STATE_MATCH, "the time step (option -dt) [s]", 1, &sim->dt));
   PetscCall(
       PgStateAddInts(state, "simulation_fluid_every", PG_STATE_MATCH, "option -fluid_every", 1, &sim->fluid_every));

@@ -306,6 +306,26 @@ PetscErrorCode PgSimulationRunCase(PgSimulation sim, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
+/* Radii and masses that the case has given its discs, which a run that goes on must give them again. */
+static PetscErrorCode SumDiscs(PgSimulation sim)
+{
+  PgExactSum sum[2];
+  PetscReal *radius, *mass;
+  PetscInt   owned;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscArrayzero(sum, 2));
+  PetscCall(PgParticlesGetSizes(sim->particles, &owned, NULL, NULL));
+  PetscCall(PgParticlesGetArray(sim->particles, PG_RADIUS, &radius));
+  PetscCall(PgParticlesGetArray(sim->particles, PG_MASS, &mass));
+  for (PetscInt i = 0; i < owned; i++) {
+    PgExactSumAdd(&sum[0], radius[i]);
+    PgExactSumAdd(&sum[1], mass[i]);
+  }
+  PetscCall(PgExactSumReduce(sim->comm, 2, sum, sim->disc_sums));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgSimulationSetUp(PgSimulation sim)
 {
   const PetscReal asked_end  = sim->setup.end_time;
@@ -319,6 +339,7 @@ PetscErrorCode PgSimulationSetUp(PgSimulation sim)
   PetscCall(PgStagePush(PG_STAGE_SETUP));
   sim->setup.restart = (PetscBool)(sim->restart_file[0] != 0);
   PetscCall(sim->case_info->setup(sim->case_context, &sim->setup));
+  PetscCall(SumDiscs(sim));
   if (sim->setup.restart) PetscCall(PgRestartBegin(sim, &checkpoint));
   case_end = sim->setup.end_time;
   PetscCall(PgNeighborsBuild(sim->neighbors));

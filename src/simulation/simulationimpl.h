@@ -43,12 +43,13 @@ struct PgSimulation_s {
   PgCaseSetup       setup;
 
   /* time */
-  PetscReal dt;          /* step of the discs [s] */
-  PetscReal dt_critical; /* at the start [s] */
-  PetscReal dt_safety;   /* dt/dt_critical when -dt is absent */
-  PetscInt  fluid_every; /* steps of the discs in a fluid step */
-  PetscInt  step, steps; /* fluid steps done and in all */
-  PetscReal time;        /* [s] */
+  PetscReal dt;           /* step of the discs [s] */
+  PetscReal dt_critical;  /* at the start [s] */
+  PetscReal disc_sums[2]; /* of radii [m] and masses [kg/m], as the case made them */
+  PetscReal dt_safety;    /* dt/dt_critical when -dt is absent */
+  PetscInt  fluid_every;  /* steps of the discs in a fluid step */
+  PetscInt  step, steps;  /* fluid steps done and in all */
+  PetscReal time;         /* [s] */
   PetscBool dt_set, end_set;
 
   /* monitors, in fluid steps; 0 is never */

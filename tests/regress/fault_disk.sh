@@ -3,7 +3,7 @@
 # checkpoint is intact.
 . "$SOURCE_DIR/tests/support/regress.sh"
 
-panel="-case panel -panel_columns 20 -dt 2e-6 -dem_local_damping 0.7 -end_time 0.1 -output_every 1e-2 -history_every 1e-4"
+panel="-case panel -panel_columns 20 -dt 2e-6 -dem_local_damping 0.7 -end_time 0.1 -history_every 1e-4"
 
 await() {
   for _ in $(seq 600); do

@@ -126,6 +126,13 @@ warns "$(sed -n 's/^\(-[a-z_]*  *[^ ]*\).*/\1/p' "$case1" | sed 's/  */ /' |
   awk '{ list = list (list ? ", " : "") $0 } END { print "warning: without effect: " list " (-fluid none overrules them)" }')" \
   -options_file "$case1" "${short[@]}" -fluid none
 # PETSC_OPTIONS is a file, too
+# Files of solvers stack: what the first solver wanted is idle with the second.
+warns 'warning: without effect: -pressure_sub_pc_factor_mat_ordering_type rcm, -pressure_sub_pc_type icc (-pressure_pc_type jacobi overrules them)' \
+  -options_file "$case1" "${short[@]}" -options_file "$options/solvers/cg-icc.opts" -pressure_pc_type jacobi
+warns 'warning: without effect: -pressure_pc_gamg_threshold 0.05 (-pressure_pc_type hypre overrules it)' \
+  -options_file "$case1" "${short[@]}" -options_file "$options/solvers/cg-gamg-threshold.opts" -options_file "$options/solvers/cg-hypre.opts"
+expect_error 2 'option -pressure_ksp_max_it 3 is not read by the solver of this run' "$POROGRAIN" -options_file "$case1" "${short[@]}" \
+  -pressure_ksp_type preonly -pressure_pc_type cholesky -pressure_ksp_max_it 3
 PETSC_OPTIONS='-pressure_ksp_rtol 1e-9' warns 'warning: without effect: -pressure_ksp_rtol 1e-9 (-pressure explicit overrules it)' \
   -fluid ns -pressure explicit "${short[@]}"
 [ -e run.h5 ] || fail 'no results'

@@ -110,6 +110,10 @@ rm pair.1
     "$POROGRAIN" $panel -fluid darcy -restart middle.pgc
   expect_error 4 'cannot go on from it: the time step \(option -dt\) \[s\] is 2e-06 in the checkpoint and 1e-06 now' \
     "$POROGRAIN" $panel -dt 1e-6 -restart middle.pgc
+  expect_error 4 'cannot go on from it: the mass of all discs, by the options of the case and -solid_density, \[kg/m\] is [0-9.]* in the checkpoint and [0-9.]* now' \
+    "$POROGRAIN" $panel -solid_density 3000 -restart middle.pgc
+  expect_error 4 'cannot go on from it: the sum of all radii, by the options of the case, \[m\] is 0.245' \
+    "$POROGRAIN" $panel -panel_radius 6e-3 -restart middle.pgc
   expect_error 4 'cannot go on from it: velocity of plate upper \[m/s\] is -0.0618 in the checkpoint and -0.05 now' \
     "$POROGRAIN" $panel -panel_velocity 0.05 -restart middle.pgc
 }
