@@ -3,7 +3,8 @@
 # found to FILE (docs/verification.md beside this script by default). No table comes from a run in which a test fails.
 #
 # A test prints lines "VERIFY | case | quantity | reference | computed | error | order | tolerance | reason". A line that
-# comes again with the same reference, from another number of ranks, is shown once: as it came first, on one rank.
+# comes again with the same reference, from another number of ranks, is shown once: as it came first, on one rank. That
+# one run prints it twice is an error: the quantity has to say what makes the two different.
 set -euo pipefail
 
 [ $# -ge 1 ] && [ -f "$1/CTestTestfile.cmake" ] || {
@@ -24,7 +25,7 @@ fi
 
 awk -v intro="$here/verification_intro.md" -v breaks="$here/verification_breaks.md" '
   function trim(s) { gsub(/^[ \t]+|[ \t]+$/, "", s); return s }
-  { sub(/\r$/, ""); sub(/^[0-9]+: /, "") }
+  { sub(/\r$/, ""); run = match($0, /^[0-9]+: /) ? substr($0, 1, RLENGTH) : ""; sub(/^[0-9]+: /, "") }
   /^SKIP: / { skipped[skips++] = substr($0, 7) }
   /^VERIFY \|/ {
     n = split($0, field, "|")
@@ -33,8 +34,11 @@ awk -v intro="$here/verification_intro.md" -v breaks="$here/verification_breaks.
     for (k = 2; k <= n; k++) row = row " " trim(field[k]) " |"
     what = trim(field[2])
     line = what SUBSEP trim(field[3]) SUBSEP trim(field[4])
-    if (line in seen) next
-    seen[line] = 1
+    if (line in seen) {
+      if (seen[line] == run) { print "twice in one run: " $0 > "/dev/stderr"; bad = 1 }
+      next
+    }
+    seen[line] = run
     if (!(what in first)) { first[what] = cases; name[cases++] = what }
     rows[what, count[what]++] = "|" row
     total++

@@ -25,17 +25,22 @@ static inline void VerifyLine(const char what[], const char quantity[], const ch
                     computed, error, order, tolerance, reason));
 }
 
-/* |computed - reference| <= tolerance*scale; scale 0 is |reference|. */
+/* |computed - reference| <= tolerance*scale; scale 0 is |reference|. The table says of any other scale what it is. */
 static inline void VerifyValue(const char what[], const char quantity[], PetscReal reference, PetscReal computed,
                                PetscReal scale, PetscReal tolerance, const char reason[])
 {
   const PetscReal unit = scale > 0.0 ? scale : PetscAbsReal(reference), error = PetscAbsReal(computed - reference);
-  char            r[32], c[32], e[32], t[32];
+  char            r[32], c[32], e[32], t[64];
 
   (void)snprintf(r, sizeof r, "%.6g", (double)reference);
   (void)snprintf(c, sizeof c, "%.6g", (double)computed);
   (void)snprintf(e, sizeof e, "%.2e", (double)(error / unit));
-  (void)snprintf(t, sizeof t, "%.2g", (double)tolerance);
+  if (unit == PetscAbsReal(reference))
+    (void)snprintf(t, sizeof t, "%.2g", (double)tolerance);
+  else if (unit == 1.0)
+    (void)snprintf(t, sizeof t, "%.2g (absolute)", (double)tolerance);
+  else
+    (void)snprintf(t, sizeof t, "%.2g of %.4g", (double)tolerance, (double)unit);
   VerifyLine(what, quantity, r, c, e, "", t, reason);
   if (!(error <= tolerance * unit))
     fail_msg("%s, %s: %.9g instead of %.9g, off by %.3g of %.3g, allowed %.3g", what, quantity, (double)computed,

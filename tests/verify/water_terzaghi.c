@@ -101,6 +101,27 @@ static void SchemeOptions(PetscBool ns, PetscInt rows, char options[], size_t si
     (void)snprintf(options, size, "-fluid darcy -permeability %.15g", (double)k_p);
 }
 
+/* `error`: computed minus exact degree of consolidation, each refinement. */
+static void Degrees(const char scheme[], PetscReal at, const PetscReal h[REFINEMENTS],
+                    const PetscReal error[REFINEMENTS])
+{
+  const PetscReal exact = ExactDegree(at), fine = error[REFINEMENTS - 1], coarse = error[REFINEMENTS - 2];
+  PetscReal       size[REFINEMENTS];
+  char            name[96];
+
+  for (int k = 0; k < REFINEMENTS; k++) size[k] = PetscAbsReal(error[k]);
+  (void)snprintf(name, sizeof name, "U at T = %g, %s", (double)at, scheme);
+  VerifyOrder("column_terzaghi", name, REFINEMENTS, h, size, 1.0, 0.3, "ends of first order, waves of 1e-3 q");
+  (void)snprintf(name, sizeof name, "U at T = %g, 49 rows, %s", (double)at, scheme);
+  /* where the column ends is known to a row */
+  VerifyValue("column_terzaghi", name, exact, exact + fine, 1.0, 0.02, "one row of 48");
+  (void)snprintf(name, sizeof name, "U at T = %g, extrapolated from 25 and 49 rows, %s", (double)at, scheme);
+  /* 2 fine - coarse has thrice the waves of 1e-3 q, and what is of second order, a few (1/48)^2; if less of the volume
+     change went into the water, 2 % of it, U were 5e-3 larger at T = 0.2 and 6e-3 at 0.5, beside 1e-3 to 4e-3 seen */
+  VerifyValue("column_terzaghi", name, exact, exact + 2.0 * fine - coarse, 1.0, 5e-3,
+              "waves of 1e-3 q thrice, second order");
+}
+
 static void Scheme(PetscBool ns)
 {
   const char *const scheme = ns ? "Navier-Stokes" : "Darcy";
@@ -116,7 +137,6 @@ static void Scheme(PetscBool ns)
     for (int i = 0; i < TIMES; i++) {
       WaterRun(&w, TimeOf(T[i]));
       Compare(&w, T[i], &pressure[i][k], &degree[i][k]);
-      degree[i][k] = PetscAbsReal(degree[i][k]);
     }
     h[k] = RadiusOf(rows_of[k]);
     WaterEnd(&w);
@@ -126,12 +146,7 @@ static void Scheme(PetscBool ns)
     /* the drained row is a row inside the surface, kernels are cut at both ends: first order; waves that run up and down
        the column leave some 1e-3 q, hence the tolerance */
     VerifyOrder("column_terzaghi", name, REFINEMENTS, h, pressure[i], 1.0, 0.3, "ends of first order, waves of 1e-3 q");
-    (void)snprintf(name, sizeof name, "U at T = %g, %s", (double)T[i], scheme);
-    if (i > 0)
-      VerifyOrder("column_terzaghi", name, REFINEMENTS, h, degree[i], 1.0, 0.3, "ends of first order, waves of 1e-3 q");
-    else /* two errors of opposite sign at the drained end: no clean order, but small */
-      VerifyValue("column_terzaghi", name, ExactDegree(T[i]), ExactDegree(T[i]) + degree[i][REFINEMENTS - 1], 1.0, 0.02,
-                  "one row of 48");
+    Degrees(scheme, T[i], h, degree[i]);
   }
 }
 
@@ -217,6 +232,50 @@ static void Undrained(void **state)
               "second order of row over drained layer");
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(Consolidation), cmocka_unit_test(TimeStep),
-                                          cmocka_unit_test(Undrained)};
+/* Water that leaves the layer between a quarter and three quarters of the height from T = 0.2 to 0.4, by its velocity
+   relative to the discs, over the way by which the discs shorten that layer. */
+static PetscReal Balance(PetscInt rows)
+{
+  const PetscInt low = rows / 4, high = rows - 1 - rows / 4;
+  PetscReal      y[MOST_ROWS], w_y[MOST_ROWS], shorter, passed = 0.0;
+  char           dashpots[256], all[512];
+  Water          w;
+
+  Dashpots(rows, dashpots, sizeof dashpots);
+  (void)snprintf(all, sizeof all, "-permeability %.15g %s", (double)k_p, dashpots);
+  Start(&w, "column_terzaghi", rows, StepsOf(rows), all);
+  WaterRun(&w, TimeOf(0.2));
+  WaterRows(&w, "position", 2, 1, y, NULL);
+  shorter = y[high] - y[low];
+  while (WaterTime(&w) < TimeOf(0.4) * (1.0 - 1e-9)) {
+    const PetscReal before = WaterTime(&w);
+    CHECK(PgSimulationStep(w.sim));
+    WaterRows(&w, "relative_velocity", 2, 1, w_y, NULL);
+    passed += (w_y[high] - w_y[low]) * (WaterTime(&w) - before);
+  }
+  WaterRows(&w, "position", 2, 1, y, NULL);
+  shorter -= y[high] - y[low];
+  WaterEnd(&w);
+  return passed / shorter;
+}
+
+static void MassBalance(void **state)
+{
+  PetscReal coarse, fine;
+
+  (void)state;
+  if (!Once()) skip();
+  coarse = Balance(25);
+  fine   = Balance(49);
+  /* the water's velocity comes from the gradient, its balance from the Laplacian, which is 1.0114 times too large on the
+     lattice (theory.md, section 3); the rest is of second order in the spacing. A term n div v that is 2 % off is off by
+     1.9e-3 of the balance: half of that, of which waves of the discs and the factor's digits take 5e-4. */
+  VerifyValue(
+      "column_terzaghi",
+      "water that leaves the middle half, T = 0.2 to 0.4, over its shortening, extrapolated from 25 and 49 rows",
+      1.0 / 1.0114, (4.0 * fine - coarse) / 3.0, 0.0, 1e-3, "half of what 2 % of n div v make");
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(Consolidation), cmocka_unit_test(MassBalance),
+                                          cmocka_unit_test(TimeStep), cmocka_unit_test(Undrained)};
 WATER_MAIN(tests)
