@@ -95,7 +95,7 @@ static void Zones(void **state)
                      z == 0 ? "the right half of zone 1" : "zone 2", (int)along, (int)(300 / along));
       VerifyValue("up zones of example 6.2", name, 1.0, mean, 0.0, 2e-5,
                   "compressible constituents take M/K = 3e-6, less that of the last swing");
-      (void)snprintf(name, sizeof name, "spread of p there over its mean, %d x %d elements", (int)along,
+      (void)snprintf(name, sizeof name, "spread of p there over its mean, zone %d, %d x %d elements", z + 1, (int)along,
                      (int)(300 / along));
       VerifyRange("up zones of example 6.2", name, 0.0, 1e-4, spread, "no oscillation from node to node");
       CHECK(PgFemDestroy(&zone.fem));
