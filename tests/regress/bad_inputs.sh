@@ -20,19 +20,19 @@ one() {
     run "$n" timeout 60 "$@" >"out-$number.$n" 2>&1 </dev/null || got=$?
     {
       [ "$got" = "$status" ] || echo "exit status $got instead of $status"
-      [ "$(grep -ac '^porograin: error: ' "out-$number.$n")" = 1 ] || echo "not one message"
-      grep -aE '^porograin: error: ' "out-$number.$n" | grep -aqF -- "$name" || echo "the message does not name '$name'"
+      [ "$(grep -acE '^porograin(-study|-plot)?: error: ' "out-$number.$n")" = 1 ] || echo "not one message"
+      grep -aE '^porograin(-study|-plot)?: error: ' "out-$number.$n" | grep -aqF -- "$name" || echo "the message does not name '$name'"
       ! grep -aE 'HDF5-DIAG|HDF5: infinite|PETSC ERROR|MPI_ABORT|Segmentation|signal' "out-$number.$n" || echo "more than a message"
       ! compgen -G "result-$number*" || echo "something was written"
     } >"wrong-$number.$n"
     if [ -s "wrong-$number.$n" ]; then
       { echo "-- $label, $n ranks" && sed 's/^/   /' "wrong-$number.$n" && head -n 8 "out-$number.$n"; } >>"failed-$number"
     fi
-    grep -aE '^porograin: error: ' "out-$number.$n" >"message-$number.$n"
+    grep -aE '^porograin(-study|-plot)?: error: ' "out-$number.$n" >"message-$number.$n"
   done
   [ "$ranks" = 1 ] || cmp -s "message-$number.1" "message-$number.2" || echo "-- $label: another message on two ranks" >>"failed-$number"
   # sizes and places inside of a file, in HDF5's words, change with its version
-  message=$(sed -E 's/^porograin: error: //; s/\|/\\|/g; s/((eof|base_addr|offset|size) = )[0-9]+/\1.../g' "message-$number.1" | head -n 1)
+  message=$(sed -E 's/^porograin(-study|-plot)?: error: //; s/\|/\\|/g; s/((eof|base_addr|offset|size) = )[0-9]+/\1.../g' "message-$number.1" | head -n 1)
   printf '| %s | %s | %s |\n' "$label" "$status" "$message" >"row-$number-a"
 }
 
