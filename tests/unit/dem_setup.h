@@ -111,7 +111,8 @@ static inline void WorldHalo(World *world)
   CHECK(PgParticlesHalo(world->particles, 3, fields));
 }
 
-static inline void WorldStep(World *world, PetscReal dt)
+/* What comes before the forces of a step. */
+static inline void WorldMove(World *world, PetscReal dt)
 {
   PetscBool need;
 
@@ -121,6 +122,11 @@ static inline void WorldStep(World *world, PetscReal dt)
     WorldBuild(world);
   else
     WorldHalo(world);
+}
+
+static inline void WorldStep(World *world, PetscReal dt)
+{
+  WorldMove(world, dt);
   CHECK(PgDemForces(world->dem, dt));
   CHECK(PgDemKick(world->dem, dt));
 }
