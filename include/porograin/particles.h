@@ -76,6 +76,9 @@ PETSC_EXTERN PetscErrorCode PgParticlesGetRaggedInfo(PgParticles particles, PgRa
    0 .. N-1, each once: checked) and every field zero. The caller then fills the arrays and calls
    PgParticlesDistribute(). Any rank may hold none. Collective. */
 PETSC_EXTERN PetscErrorCode PgParticlesSetDiscs(PgParticles particles, PetscInt owned, const PetscInt id[]);
+/* Largest number of discs that one rank has had since they were set, over the mean, and how often they were
+   partitioned. Known at distributions; not collective. */
+PETSC_EXTERN PetscErrorCode PgParticlesGetBalance(PgParticles particles, PetscReal *worst, PetscInt *cuts);
 PETSC_EXTERN PetscErrorCode PgParticlesGetSizes(PgParticles particles, PetscInt *owned, PetscInt *ghosts,
                                                 PetscInt *global);
 /* Permanent ids, ghosts included. */

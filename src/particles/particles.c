@@ -83,6 +83,14 @@ PetscErrorCode PgParticlesView(PgParticles particles, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgParticlesGetBalance(PgParticles particles, PetscReal *worst, PetscInt *cuts)
+{
+  PetscFunctionBeginUser;
+  *worst = particles->worst_load * particles->size / PetscMax(particles->global, 1);
+  *cuts  = particles->cuts;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgParticlesDestroy(PgParticles *particles)
 {
   PgParticles p = *particles;
@@ -122,8 +130,10 @@ PetscErrorCode PgParticlesSetDiscs(PgParticles particles, PetscInt owned, const 
   PetscCall(PgGhostsDestroy(particles));
   particles->owned = 0;
   PetscCall(PgParticlesReserve(particles, owned));
-  particles->owned  = owned;
-  particles->global = global;
+  particles->owned      = owned;
+  particles->global     = global;
+  particles->worst_load = 0;
+  particles->cuts       = 0;
   PetscCall(PetscArraycpy(particles->id, id, owned));
   for (PgField f = 0; f < particles->nfields; f++) {
     PgFieldStore *store = particles->field[f];

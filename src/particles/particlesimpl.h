@@ -76,6 +76,8 @@ struct PgParticles_s {
   PetscInt  sort_every; /* distributions between sortings */
   PetscInt  unsorted;   /* distributions since the last sorting */
   PetscReal cut_load;   /* largest load just after the last cut [discs] */
+  PetscReal worst_load; /* largest load since the discs were set, with cuts that served [discs] */
+  PetscInt  cuts;       /* since the discs were set */
   PgGrid    grid;
   uint64_t *splitter; /* (size + 1) piece p of the curve holds the keys [splitter[p], splitter[p + 1]) */
   PetscInt  shift;    /* rank r owns piece (r + shift) % size */

@@ -172,7 +172,9 @@ static PetscErrorCode CutLoad(PgParticles particles, const PgSortEntry sorted[])
     largest = PetscMax(largest, below[p] - last);
     last    = below[p];
   }
-  particles->cut_load = (PetscReal)largest;
+  particles->cut_load   = (PetscReal)largest;
+  particles->worst_load = PetscMax(particles->worst_load, particles->cut_load);
+  particles->cuts++;
   PetscCall(PetscFree(below));
   PetscFunctionReturn(0);
 }
@@ -278,6 +280,7 @@ PetscErrorCode PgPartitionUpdate(PgParticles particles, PetscReal width)
     high[d] = particles->global ? most[HIGH_X + d] : 0;
   }
   mean = (PetscReal)particles->global / particles->size;
+  if (!particles->recut) particles->worst_load = PetscMax(particles->worst_load, most[LOAD]);
   if (particles->grid.width != width || Outgrown(&particles->grid, low, high)) {
     PetscCall(SetGrid(particles, width, low, high));
     particles->recut = PETSC_TRUE;

@@ -134,6 +134,23 @@ static PetscErrorCode Times(PgSimulation sim)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode Balance(PgSimulation sim)
+{
+  PetscMPIInt size;
+  PetscReal   worst;
+  PetscInt    cuts;
+
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
+  if (size == 1) PetscFunctionReturn(0);
+  PetscCall(PgParticlesGetBalance(sim->particles, &worst, &cuts));
+  PetscCall(PetscPrintf(sim->comm,
+                        "%d ranks, at most %.3f of the mean number of discs on one; partitioned %" PetscInt_FMT
+                        " time%s\n",
+                        size, (double)worst, cuts, cuts == 1 ? "" : "s"));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode Solves(PgSimulation sim)
 {
   PgPressure       pressure;
@@ -196,6 +213,7 @@ PetscErrorCode PgProgressSummary(PgSimulation sim)
     PetscCall(PetscPrintf(sim->comm, "peak load %.4e N/m at a displacement of %.4e m, load at the end %.4e N/m\n",
                           (double)sim->peak_load, (double)sim->peak_displacement, (double)sim->row[COLUMN_LOAD]));
   PetscCall(Times(sim));
+  PetscCall(Balance(sim));
   if (sim->pore) PetscCall(Solves(sim));
   PetscCall(Files(sim));
   PetscFunctionReturn(0);

@@ -3,14 +3,14 @@
 #   cmake --build build --target bench        (or: cmake --preset release && cmake --build --preset bench)
 # Prints a table and writes bench.csv in the working folder. Measurements alternate; the median of BENCH_ROUNDS (3) counts.
 #   BENCH_COLUMNS="25 100 316 707"   panels: 1249, 19999, 199711, 999697 discs
-#   BENCH_PARTS="dem memory panel pressure ranks million"
+#   BENCH_PARTS="dem memory panel pressure assembly ranks million"
 # Times are CPU seconds on one rank, wall seconds where ranks are compared: these mean something on a quiet machine only.
 set -euo pipefail
 export LC_ALL=C OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none OMP_NUM_THREADS=1
 rounds=${BENCH_ROUNDS:-3}
 columns=${BENCH_COLUMNS:-25 100 316 707}
-parts=" ${BENCH_PARTS:-dem memory panel pressure ranks million} "
+parts=" ${BENCH_PARTS:-dem memory panel pressure assembly ranks million} "
 options=$SOURCE_DIR/options
 here=$SOURCE_DIR/tests/bench
 mpiexec=${MPIEXEC:-mpiexec}
@@ -102,6 +102,17 @@ pressure() { # kept preconditioners over consecutive steps of Case I
     rm -f dump*
   done
 }
+# Weights and values of the matrix in every step, from the summary at the end of a run: wall time, of one rank alone.
+assembly() {
+  local w s
+  for w in 25 316; do
+    s=1000
+    [ "$w" = 25 ] || s=20
+    # shellcheck disable=SC2046
+    put "assembly$w" "$($(panel "$w" $s -options_file quiet.opts -fluid_every 1) |
+      awk -v n="$(discs "$w")" -v s=$s '$1 == "assemble" { printf "%.4g", 1e6 * $2 / (n * s) }')"
+  done
+}
 ranks() { # shellcheck disable=SC2046
   local p
   for p in 1 2; do
@@ -113,10 +124,12 @@ ranks() { # shellcheck disable=SC2046
 million() { # shellcheck disable=SC2046
   put million "$(rss $mpiexec -n 2 $(panel 707 100 -options_file quiet.opts -fluid_every 10) |
     awk '{ print 2 * $1 / 1048576 }')" # of the larger of two ranks
+  put balance "$($mpiexec -n 2 $(panel 707 20 -options_file quiet.opts -fluid_every 10) |
+    sed -n 's/.*at most \([0-9.]*\) of the mean number of discs.*/\1/p')"
 }
 
 for ((round = 0; round < rounds; round++)); do
-  for part in dem memory panel pressure ranks million; do
+  for part in dem memory panel pressure assembly ranks million; do
     wants $part || continue
     echo "round $((round + 1)): $part" >&2
     if [ $part = panel ]; then case1; else $part; fi
@@ -148,6 +161,10 @@ for w in 25 316; do
   row "icc$w" "pressure step, kept icc, $(discs "$w") discs" "us/unknown" "$goal" "plainicc$w" "plain PETSc"
   row "cholmod$w" "pressure step, kept CHOLMOD, $(discs "$w") discs" "us/unknown" "$goal"
 done
+for w in 25 316; do
+  row "assembly$w" "assembly (weights and values), $(discs "$w") discs" "us/row" "<= 0.2"
+done
 row dry2 "2 ranks against 1, 199711 discs, dry" "disc-steps/wall s" ">= 1.85 x" dry1 "1 rank"
 row ns2 "2 ranks against 1, 199711 discs, N-S implicit" "disc-steps/wall s" ">= 1.7 x" ns1 "1 rank"
 row million "999697 discs, N-S implicit, 2 ranks, 100 steps" "GiB" "<= 3"
+row balance "the same, 20 steps: most discs on a rank" "of the mean" "<= 1.1"
