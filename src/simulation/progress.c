@@ -144,10 +144,9 @@ static PetscErrorCode Balance(PgSimulation sim)
   PetscCallMPI(MPI_Comm_size(sim->comm, &size));
   if (size == 1) PetscFunctionReturn(0);
   PetscCall(PgParticlesGetBalance(sim->particles, &worst, &cuts));
-  PetscCall(PetscPrintf(sim->comm,
-                        "%d ranks, at most %.3f of the mean number of discs on one; partitioned %" PetscInt_FMT
-                        " time%s\n",
-                        size, (double)worst, cuts, cuts == 1 ? "" : "s"));
+  PetscCall(PetscPrintf(
+      sim->comm, "%d ranks, at most %.3f of the mean number of discs on one; partitioned %" PetscInt_FMT " time%s\n",
+      size, (double)worst, cuts, cuts == 1 ? "" : "s"));
   PetscFunctionReturn(0);
 }
 
