@@ -6,10 +6,12 @@
 
 typedef struct PgSph_s *PgSph;
 
-/* A smoothing kernel in two dimensions, W(r, h) = w(r/h)/h^2. */
+/* A smoothing kernel in two dimensions, W(r, h) = w(r/h)/h^2. In d dimensions it is w(r/h)/h^d times
+   constant[d - 1]/constant[1]. */
 typedef struct {
   const char *name, *citation;
   PetscReal   support;          /* in units of h */
+  PetscReal   constant[3];      /* in front of the piecewise polynomial, in one, two and three dimensions */
   PetscReal (*w)(PetscReal q);  /* with its constant: integral of w over the plane is 1 */
   PetscReal (*dw)(PetscReal q); /* derivative of w */
 } PgKernel;
