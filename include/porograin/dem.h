@@ -1,5 +1,5 @@
-/* dem: the solid phase. Discs with sliding and rolling friction (Li, Chu & Sheng 2007, Eqs. 1-17),
-   plates with prescribed motion, damping, and their motion in time. Knows nothing about water: what the
+/* dem: the solid phase. Discs with sliding and rolling friction (Li, Chu & Sheng 2007, Eqs. 1-17), or with bonds or
+   Hertz' contact (Tak, Park & Park 2013, Eqs. 15-18), plates with prescribed motion, damping, and their motion in time. Knows nothing about water: what the
    water does to a disc arrives as a force in the field "fluid_force". */
 #pragma once
 
@@ -15,6 +15,10 @@ typedef struct {
   PetscReal c_theta;       /* moment dashpot [N m s/rad], Eq. 4 */
   PetscReal mu_s, mu_r;    /* friction coefficients of the sliding and rolling force [1], Eqs. 14-17 */
   PetscReal mu_theta_r;    /* rolling moment arm mu_theta*r [m], Eqs. 5-6 */
+  /* of the laws of Tak, Park & Park (2013), with their equation numbers */
+  PetscReal R_n, R_t;   /* strength of a bond in tension and in shear [N/m], Eqs. 15-16; both 0: no bonds */
+  PetscReal bond_range; /* discs nearer to each other than this at the start of a run are bonded [m] */
+  PetscReal E, nu;      /* Young's modulus [Pa] and Poisson's ratio [1] of the discs, Eq. 18 */
 } PgContactParameters;
 
 /* Motion of the pair relative to its contact point, and what it remembers. */
@@ -24,9 +28,11 @@ typedef struct {
   PetscReal sliding_rate; /* du_s/dt = (v_a - v_j).t + r_a w_a + r_j w_j [m/s] */
   PetscReal rolling_rate; /* du_r/dt = -(r_a w_a + r_j w_j) [m/s] */
   PetscReal spin_rate;    /* dth_r/dt = w_a - w_j [rad/s] */
+  PetscReal R;            /* r_a r_j/(r_a + r_j), of a wall r_a [m]; read by Hertz' law alone */
 } PgContactMotion;
 typedef struct {
-  PetscReal f_s, f_r; /* elastic sliding and rolling force [N], Eq. 13 */
+  PetscReal f_s, f_r; /* elastic sliding and rolling force [N], Eq. 13; in the law tak2013, which knows no rolling, f_r
+                         is 1 for a bond, -1 for a contact without, 0 for discs that have not met */
   PetscReal m_r;      /* elastic rolling moment [N m], Eq. 4 */
 } PgContactHistory;
 /* Force F_N n + F_T t on a and its opposite on j; torque r_a F_T + M_r on a, r_j F_T - M_r on j. */
@@ -38,6 +44,16 @@ typedef struct {
    Elastic parts are capped with the force so that springs do not wind up. A pure function. */
 PETSC_EXTERN PgContactForce PgContactLawLi2007(const PgContactParameters *parameters, const PgContactMotion *motion,
                                                PetscReal dt, PgContactHistory *history);
+
+/* Tak, Park & Park (2013), Eqs. 15-17: spring and dashpot in both directions. A bond holds in tension, too, until the
+   tension exceeds R_n or the tangential force R_t, and is then broken for good; without bond there is no tension, and
+   friction caps the tangential force. Discs that touch in an evaluation with dt = 0, the start of a run, are bonded. */
+PETSC_EXTERN PgContactForce PgContactLawTak2013(const PgContactParameters *parameters, const PgContactMotion *motion,
+                                                PetscReal dt, PgContactHistory *history);
+/* Eq. 18: F_N = 4/3 E/(2(1 - nu^2)) sqrt(R) u_N^{3/2} for two discs of one material, the number for spheres [N] taken by
+   metre of thickness, and a dashpot c_n; Eqs. 16, 17 tangentially. */
+PETSC_EXTERN PgContactForce PgContactLawHertz(const PgContactParameters *parameters, const PgContactMotion *motion,
+                                              PetscReal dt, PgContactHistory *history);
 
 /* A plate: a horizontal rigid surface that prescribes the vertical velocity of the discs assigned to it
    (field "plate": 1 + index of the plate, 0 for free discs). Horizontally a disc slips on the plate

@@ -62,6 +62,7 @@ static inline __attribute__((always_inline)) void Law(PetscInt n, const PgContac
     motion.sliding_rate = (uy * nx - ux * ny) + spin;
     motion.rolling_rate = -spin;
     motion.spin_rate    = b->w_a[k] - b->w_j[k];
+    motion.R            = 0; /* not read by this law */
     f                   = PgLi2007(p, &motion, dt, &h, lost ? &lost[PG_LOST * k] : NULL);
     f_s[k]              = h.f_s;
     f_r[k]              = h.f_r;

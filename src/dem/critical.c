@@ -68,6 +68,18 @@ static PetscReal ContactLimit(const PgContactParameters *p, PetscReal inverse, P
   return PetscMin(normal, tangential);
 }
 
+/* Springs and dashpots of a contact as they act now. A Hertzian one, which is soft at first touch, counts as if pressed
+   by a hundredth of its radius at least. */
+static PgContactParameters Acting(PgDem dem, PetscReal overlap, PetscReal R)
+{
+  PgContactParameters p = dem->parameters;
+
+  if (!dem->law->stiffness) return p;
+  p.k_n = dem->law->stiffness(&p, PetscMax(overlap, 0.01 * R), R);
+  p.k_r = p.k_theta = p.c_r = p.c_theta = 0;
+  return p;
+}
+
 /* The spring that limits the time step: the largest stable one, and an owned disc at its end (-1: no spring). */
 typedef struct {
   PetscReal       limit; /* [s] */
@@ -105,21 +117,23 @@ static PetscErrorCode FindStiffest(PgDem dem, Stiffest *stiffest, PetscBool *all
   PetscCall(PgParticlesGetArray(dem->particles, PG_MASS, &m));
   PetscCall(PgParticlesGetArray(dem->particles, dem->plate, &plate));
   for (PetscInt k = 0; k < list.count; k++) {
-    const PetscInt  a = list.low[k], j = list.high[k];
-    const PetscReal r_a = discs.radius[a], r_j = discs.radius[j];
-    const PetscReal z_a = share[a] / m[a], z_j = share[j] / m[j]; /* I = m r^2/2 */
-    PetscReal       n[2];
+    const PetscInt            a = list.low[k], j = list.high[k];
+    const PetscReal           r_a = discs.radius[a], r_j = discs.radius[j];
+    const PetscReal           z_a = share[a] / m[a], z_j = share[j] / m[j]; /* I = m r^2/2 */
+    PetscReal                 n[2];
+    const PetscReal           overlap = PgDemPairGeometry(&discs, a, j, n);
+    const PgContactParameters p       = Acting(dem, overlap, r_a * r_j / (r_a + r_j));
 
-    if (!*all && !PgDemTouching(PgDemPairGeometry(&discs, a, j, n), r_a, r_j)) continue;
-    Consider(stiffest,
-             ContactLimit(&dem->parameters, z_a + z_j, 2 * (z_a + z_j), 2 * (z_a / (r_a * r_a) + z_j / (r_j * r_j))),
+    if (!*all && !PgDemTouching(overlap, r_a, r_j)) continue;
+    Consider(stiffest, ContactLimit(&p, z_a + z_j, 2 * (z_a + z_j), 2 * (z_a / (r_a * r_a) + z_j / (r_j * r_j))),
              a < owned ? a : j);
   }
   for (PetscInt i = 0; i < owned; i++) { /* the other side of a wall contact is of infinite mass */
     const PetscReal z = share[i] / m[i], r = discs.radius[i];
-    for (PetscInt k = 0; k < dem->wall_count; k++)
-      if (AtWall(dem, &discs, i, k, *all, skin))
-        Consider(stiffest, ContactLimit(&dem->parameters, z, 2 * z, 2 * z / (r * r)), i);
+    for (PetscInt k = 0; k < dem->wall_count; k++) {
+      const PgContactParameters p = Acting(dem, PgDemWallOverlap(&dem->walls[k]->wall, &discs.position[2 * i], r), r);
+      if (AtWall(dem, &discs, i, k, *all, skin)) Consider(stiffest, ContactLimit(&p, z, 2 * z, 2 * z / (r * r)), i);
+    }
   }
   for (PetscInt i = 0; i < owned; i++)
     if (plate[i] > 0) Consider(stiffest, Limit(dem->parameters.k_s * 3 * share[i] / m[i], 0), i);

@@ -1,5 +1,6 @@
 /* The dem object: fields, options, settings, plates. */
 #include "demimpl.h"
+#include <string.h>
 
 static PetscErrorCode RegisterFields(PgDem dem)
 {
@@ -47,6 +48,9 @@ PetscErrorCode PgDemCreate(PgParticles particles, PgNeighbors neighbors, PgDem *
   d->parameters.mu_s       = 0.5;
   d->parameters.mu_r       = 0.5;
   d->parameters.mu_theta_r = 1e-4;
+  d->parameters.bond_range = 1e-9;
+  d->parameters.E          = 1e8;
+  d->parameters.nu         = 0.25;
   d->plate_friction        = 0.5;
   d->wall_friction         = -1;
   d->servo_gain            = 0.5;
@@ -89,21 +93,28 @@ typedef struct {
   const char *name, *text, *unit;
   size_t      place;
   PetscReal   lower;
+  const char *law; /* that it belongs to alone; NULL: of others, too */
 } ParameterOption;
 
 #define PLACE(member) offsetof(PgContactParameters, member)
 static const ParameterOption parameter_options[] = {
-    {"-dem_k_n", "Normal stiffness, Eq. 8", "N/m", PLACE(k_n), PG_POSITIVE},
-    {"-dem_k_s", "Sliding stiffness, Eq. 13", "N/m", PLACE(k_s), 0},
-    {"-dem_k_r", "Rolling stiffness, Eq. 13; 0 switches the rolling force off", "N/m", PLACE(k_r), 0},
-    {"-dem_k_theta", "Rolling moment stiffness, Eq. 4", "N m/rad", PLACE(k_theta), 0},
-    {"-dem_c_n", "Normal dashpot, Eq. 8", "N s/m", PLACE(c_n), 0},
-    {"-dem_c_s", "Sliding dashpot, Eq. 13", "N s/m", PLACE(c_s), 0},
-    {"-dem_c_r", "Rolling dashpot, Eq. 13", "N s/m", PLACE(c_r), 0},
-    {"-dem_c_theta", "Rolling moment dashpot, Eq. 4", "N m s/rad", PLACE(c_theta), 0},
-    {"-dem_mu_s", "Sliding friction coefficient, Eqs. 14-17", "1", PLACE(mu_s), 0},
-    {"-dem_mu_r", "Rolling friction coefficient, Eqs. 14-15; at most mu_s", "1", PLACE(mu_r), 0},
-    {"-dem_mu_theta_r", "Rolling moment arm mu_theta r, Eqs. 5-6", "m", PLACE(mu_theta_r), 0},
+    {"-dem_k_n", "Normal stiffness, Eq. 8", "N/m", PLACE(k_n), PG_POSITIVE, NULL},
+    {"-dem_k_s", "Sliding stiffness, Eq. 13", "N/m", PLACE(k_s), 0, NULL},
+    {"-dem_k_r", "Rolling stiffness, Eq. 13; 0 switches the rolling force off", "N/m", PLACE(k_r), 0, "li2007"},
+    {"-dem_k_theta", "Rolling moment stiffness, Eq. 4", "N m/rad", PLACE(k_theta), 0, "li2007"},
+    {"-dem_c_n", "Normal dashpot, Eq. 8", "N s/m", PLACE(c_n), 0, NULL},
+    {"-dem_c_s", "Sliding dashpot, Eq. 13", "N s/m", PLACE(c_s), 0, NULL},
+    {"-dem_c_r", "Rolling dashpot, Eq. 13", "N s/m", PLACE(c_r), 0, "li2007"},
+    {"-dem_c_theta", "Rolling moment dashpot, Eq. 4", "N m s/rad", PLACE(c_theta), 0, "li2007"},
+    {"-dem_mu_s", "Sliding friction coefficient, Eqs. 14-17", "1", PLACE(mu_s), 0, NULL},
+    {"-dem_mu_r", "Rolling friction coefficient, Eqs. 14-15; at most mu_s", "1", PLACE(mu_r), 0, "li2007"},
+    {"-dem_mu_theta_r", "Rolling moment arm mu_theta r, Eqs. 5-6", "m", PLACE(mu_theta_r), 0, "li2007"},
+    {"-dem_bond_normal", "Strength R_n of a bond in tension", "N/m", PLACE(R_n), 0, "tak2013"},
+    {"-dem_bond_tangential", "Strength R_t of a bond in shear", "N/m", PLACE(R_t), 0, "tak2013"},
+    {"-dem_bond_range", "Discs nearer to each other than this at the start of a run are bonded", "m", PLACE(bond_range),
+     0, "tak2013"},
+    {"-dem_hertz_young", "Young's modulus of the discs, Eq. 18 of Tak et al.", "Pa", PLACE(E), PG_POSITIVE, "hertz"},
+    {"-dem_hertz_poisson", "Poisson's ratio of the discs, Eq. 18 of Tak et al.; below 0.5", "1", PLACE(nu), 0, "hertz"},
 };
 enum { PARAMETER_OPTIONS = sizeof(parameter_options) / sizeof(*parameter_options) };
 
@@ -112,14 +123,15 @@ static PetscReal *ParameterAt(PgContactParameters *parameters, const ParameterOp
   return (PetscReal *)((char *)parameters + option->place);
 }
 
-static PetscErrorCode CheckFriction(PgDem dem)
+static PetscErrorCode CheckParameters(PgDem dem)
 {
   const PgContactParameters *p = &dem->parameters;
 
   PetscFunctionBeginUser;
-  PgInputCheck(p->mu_r <= p->mu_s, PgParticlesComm(dem->particles),
+  PgInputCheck(dem->law->stiffness || p->mu_r <= p->mu_s, PgParticlesComm(dem->particles),
                "-dem_mu_r %g is larger than -dem_mu_s %g: Eqs. 16-17 need mu_r <= mu_s", (double)p->mu_r,
                (double)p->mu_s);
+  PgInputCheck(p->nu < 0.5, PgParticlesComm(dem->particles), "-dem_hertz_poisson %g must be below 0.5", (double)p->nu);
   PetscFunctionReturn(0);
 }
 
@@ -180,8 +192,9 @@ PetscErrorCode PgDemSetFromOptions(PgDem dem)
   PetscOptionsBegin(PgParticlesComm(dem->particles), NULL, "dem: discs in contact", NULL);
   PetscCall(ReadOptions(dem, PetscOptionsObject, &energy));
   PetscOptionsEnd();
-  PetscCall(PgDemSetEnergy(dem, energy));
-  PetscCall(CheckFriction(dem));
+  /* asked for with a law that has no accounts: PgOptionsCheck() says that it is without effect */
+  PetscCall(PgDemSetEnergy(dem, (PetscBool)(energy && dem->law->loop_energy)));
+  PetscCall(CheckParameters(dem));
   PetscFunctionReturn(0);
 }
 
@@ -212,6 +225,7 @@ PetscErrorCode PgDemView(PgDem dem, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPushTab(viewer));
   for (PetscInt k = 0; k < PARAMETER_OPTIONS; k++) {
     const ParameterOption *o = &parameter_options[k];
+    if (o->law && strcmp(o->law, dem->law->name) != 0) continue;
     PetscCall(PetscViewerASCIIPrintf(viewer, "%s: %s = %g %s\n", o->text, o->name + 5,
                                      (double)*ParameterAt(&dem->parameters, o), o->unit));
   }
@@ -251,12 +265,13 @@ PetscErrorCode PgDemSetParameters(PgDem dem, const PgContactParameters *paramete
   for (PetscInt k = 0; k < PARAMETER_OPTIONS; k++) {
     const ParameterOption *o     = &parameter_options[k];
     const PetscReal        value = *ParameterAt(&given, o);
+    if (o->law && strcmp(o->law, dem->law->name) != 0) continue;
     PgInputCheck(!PetscIsInfOrNanReal(value) && value >= o->lower, PgParticlesComm(dem->particles),
                  "contact parameter %s = %g %s is below its bound %g", o->name + 5, (double)value, o->unit,
                  (double)o->lower);
   }
   dem->parameters = given;
-  PetscCall(CheckFriction(dem));
+  PetscCall(CheckParameters(dem));
   PetscFunctionReturn(0);
 }
 

@@ -47,7 +47,9 @@ typedef struct {
   const char *name, *citation;
   PgContactForce (*pair)(const PgContactParameters *parameters, const PgContactMotion *motion, PetscReal dt,
                          PgContactHistory *history, PetscReal lost[]);
-  PgContactLoop *loop, *loop_energy;
+  PgContactLoop *loop, *loop_energy; /* loop_energy NULL: energy accounts are not kept with this law */
+  /* dF_N/du_N at an overlap [N/m]; NULL: k_n, and rolling is part of the law */
+  PetscReal (*stiffness)(const PgContactParameters *parameters, PetscReal overlap, PetscReal R);
 } PgContactLaw;
 
 struct PgDem_s {
@@ -202,6 +204,10 @@ PgLi2007(const PgContactParameters *p, const PgContactMotion *m, PetscReal dt, P
 }
 
 PETSC_INTERN PgContactLoop PgDemContactLoopLi2007, PgDemContactLoopEnergyLi2007;
+/* The same of any law, pair by pair. */
+PETSC_INTERN PgContactLoop PgDemContactLoopTak2013, PgDemContactLoopHertz;
+PETSC_INTERN PetscReal PgContactStiffnessTak2013(const PgContactParameters *parameters, PetscReal overlap, PetscReal R);
+PETSC_INTERN PetscReal PgContactStiffnessHertz(const PgContactParameters *parameters, PetscReal overlap, PetscReal R);
 /* The registered laws, ended by an entry without name. */
 PETSC_INTERN const PgContactLaw PgContactLaws[];
 

@@ -73,6 +73,22 @@ static PetscErrorCode GrowPairs(PgDem dem, PetscInt padded)
   PetscFunctionReturn(0);
 }
 
+/* A bond that is drawn out must stay in the list: it breaks at R_n/k_n at the latest. */
+static PetscErrorCode CheckBonds(PgDem dem)
+{
+  const PgContactParameters *p = &dem->parameters;
+  PetscReal                  skin;
+
+  PetscFunctionBeginUser;
+  if (!dem->law->stiffness || p->R_n <= 0) PetscFunctionReturn(0);
+  PetscCall(PgNeighborsGetSkin(dem->neighbors, &skin));
+  PgInputCheck(p->R_n / p->k_n < 0.5 * skin && p->bond_range < 0.5 * skin, PgParticlesComm(dem->particles),
+               "bonds of -dem_bond_normal %g N/m are drawn out by %g m before they break, and -dem_bond_range is %g m: "
+               "both must be below half the skin of the lists, %g m; give a larger -neighbors_skin",
+               (double)p->R_n, (double)(p->R_n / p->k_n), (double)p->bond_range, (double)(0.5 * skin));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgDemRestoreHistory(PgDem dem)
 {
   PgContactList    list;
@@ -82,6 +98,7 @@ PetscErrorCode PgDemRestoreHistory(PgDem dem)
   PetscInt         owned;
 
   PetscFunctionBeginUser;
+  PetscCall(CheckBonds(dem));
   PetscCall(PgNeighborsGetContacts(dem->neighbors, &list));
   PetscCall(PgParticlesGetSizes(dem->particles, &owned, NULL, NULL));
   PetscCall(PgParticlesGetIds(dem->particles, &id));

@@ -201,7 +201,9 @@ PetscErrorCode PgDemWallForces_Private(PgDem dem, const PgDemDiscs *discs, Petsc
     motion.sliding_rate = (vy * n[0] - vx * n[1]) + r * spin;
     motion.rolling_rate = -(r * spin);
     motion.spin_rate    = spin;
-    c->force            = dem->law->pair(&p, &motion, dt, &c->history, dem->energy ? c->lost : NULL);
+    motion.R            = r;
+    p.R_n = p.R_t = 0; /* walls are not bonded */
+    c->force      = dem->law->pair(&p, &motion, dt, &c->history, dem->energy ? c->lost : NULL);
   }
   PetscFunctionReturn(0);
 }

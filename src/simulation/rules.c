@@ -8,7 +8,8 @@
     "-bc_" side "_flux", "-bc_" side " flux", "only a flux side has a flux"                                            \
   }
 
-static const char solves[] = "only -pressure implicit has a solver and its tolerances";
+static const char rolling[] = "only that law has a rolling resistance";
+static const char solves[]  = "only -pressure implicit has a solver and its tolerances";
 
 static const PgOptionRule rules[] = {
     {"-fluid_every", "-fluid darcy|ns", "there is no water to step"},
@@ -18,6 +19,16 @@ static const PgOptionRule rules[] = {
     {"-plate_friction", "plates", "there is nothing that it belongs to"},
     {"-wall_friction", "walls", "there is nothing that it belongs to"},
     {"-wall_servo_gain", "servo walls", "there is nothing that it belongs to"},
+    {"-dem_bond_*", "-dem_contact_law tak2013", "only that law has bonds"},
+    {"-dem_hertz_*", "-dem_contact_law hertz", "only that law asks for an elastic material"},
+    {"-dem_k_n", "-dem_contact_law li2007|tak2013", "Hertz' law takes the stiffness from the material"},
+    {"-dem_k_r", "-dem_contact_law li2007", rolling},
+    {"-dem_k_theta", "-dem_contact_law li2007", rolling},
+    {"-dem_c_r", "-dem_contact_law li2007", rolling},
+    {"-dem_c_theta", "-dem_contact_law li2007", rolling},
+    {"-dem_mu_r", "-dem_contact_law li2007", rolling},
+    {"-dem_mu_theta_r", "-dem_contact_law li2007", rolling},
+    {"-dem_energy", "-dem_contact_law li2007", "the accounts are those of that law"},
     {"-packing_aspect", "-packing_count", "-packing_size has an aspect of its own"},
     {"-packing_second_share", "-packing_second_radius", "there is one size of discs only"},
     {"-packing_plate_distance", "-packing_plates", "there are no plates"},

@@ -77,6 +77,17 @@ said 'option -packing_aspect 2 has no effect without -packing_count: -packing_si
   'option -packing_porosity 0.2 has no effect with -fluid none (the default): only water sees a porosity' \
   'option -plate_friction 0.1 has no effect in a run without plates: there is nothing that it belongs to'
 
+rolling='has no effect with -dem_contact_law hertz: only that law has a rolling resistance'
+refuses -dem_contact_law hertz -dem_bond_normal 1e3 -dem_k_n 1e8 -dem_k_r 1 -dem_k_theta 1 -dem_c_r 1 -dem_c_theta 1 -dem_mu_r 0.1 \
+  -dem_mu_theta_r 1e-5 -dem_energy
+said 'option -dem_bond_normal 1e3 has no effect with -dem_contact_law hertz: only that law has bonds' \
+  "option -dem_k_n 1e8 has no effect with -dem_contact_law hertz: Hertz' law takes the stiffness from the material" \
+  "option -dem_k_r 1 $rolling" "option -dem_k_theta 1 $rolling" "option -dem_c_r 1 $rolling" "option -dem_c_theta 1 $rolling" \
+  "option -dem_mu_r 0.1 $rolling" "option -dem_mu_theta_r 1e-5 $rolling" \
+  'option -dem_energy has no effect with -dem_contact_law hertz: the accounts are those of that law'
+refuses -dem_hertz_young 1e9
+said 'option -dem_hertz_young 1e9 has no effect with -dem_contact_law li2007 (the default): only that law asks for an elastic material'
+
 # No row of the table is left out.
 sed -n 's/^ *{"\(-[a-z_]*\)\*\{0,1\}",.*/\1/p; s/^ *SIDE("\([a-z]*\)").*/-bc_\1_pressure\n-bc_\1_flux/p' \
   "$SOURCE_DIR/src/simulation/rules.c" >rows

@@ -17,6 +17,9 @@ dem_incline ; src/dem/integrate.c ; s/(0.5 \* r\[i\] \* r\[i\])/(0.501 * r[i] * 
 dem_lattice ; src/dem/demimpl.h ; s/Friction(p->k_s,/Friction(1.01 * p->k_s,/ ; sliding stiffness 1 % higher
 dem_biaxial ; src/dem/walls.c ; s/gain \* (w->stress \* length/gain * (1.02 * w->stress * length/ ; servo walls hold 2 % too much
 dem_energy ; src/dem/demimpl.h ; s/(0.5 \* (before + after) + viscous) \* slip/(after + viscous) * slip/ ; friction takes the force of the end, not the mean
+dem_tak ; src/dem/law_tak.c ; s/4\.0 \/ 3\.0 \* modulus/4.01 \/ 3.0 * modulus/ ; Hertz' force 0.25 % larger
+dem_tak ; src/dem/law_tak.c ; s/(normal > p->R_n/(normal > 1.02 * p->R_n/ ; bonds 2 % stronger in tension
+dem_tak ; src/dem/law_tak.c ; s/PetscAbsReal(tangential) > p->R_t/PetscAbsReal(tangential) > 1.02 * p->R_t/ ; bonds 2 % stronger in shear
 dem_panel ; src/dem/integrate.c ; s/x\[i\] += dt \* v\[i\]/x[i] += dt * v[i] * (1 + 1e4 * dt)/ ; positions advance by 1e4 dt of their way too far, an error of first order
 dem_lammps ; src/dem/contact_loop.c ; s/ny) + spin;/ny) + 0.9999 * spin;/ ; sliding by rotation 0.01 % less
 dem_lammps ; src/dem/observables.c ; s/contact = value\[0\];/contact = 1.00001 * value[0];/ ; load 0.001 % higher, discs as they are

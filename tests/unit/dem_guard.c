@@ -211,8 +211,8 @@ static void Options(void **state)
   EXPECT("-dem_k_n", "N/m");
   Refused(1, (const char *const[]){"-dem_local_damping"}, (const char *const[]){"1.5"}, PETSC_ERR_USER_INPUT);
   EXPECT("-dem_local_damping", "1.5");
-  Refused(1, (const char *const[]){"-dem_contact_law"}, (const char *const[]){"hertz"}, PETSC_ERR_USER_INPUT);
-  EXPECT("-dem_contact_law", "hertz", "li2007");
+  Refused(1, (const char *const[]){"-dem_contact_law"}, (const char *const[]){"maxwell"}, PETSC_ERR_USER_INPUT);
+  EXPECT("-dem_contact_law", "maxwell", "li2007", "tak2013", "hertz");
 }
 
 static void AcceptedOptions(void **state)
