@@ -13,15 +13,41 @@ static inline PetscBool HasDensity(PgWcsph w, const PgWcsphArrays *f, PetscInt a
   return (PetscBool)(PgWcsphIsLiquid(f, a) || w->solid == PG_WCSPH_OWN);
 }
 
+/* Rate of volume of solid particles, dx^2 sum V_i v_ki.grad W, over the sum of W: each W of it goes to a partner. */
+static PetscErrorCode SolidRate(PgWcsph w, const PgWcsphArrays *f)
+{
+  PetscFunctionBeginUser;
+  for (PetscInt a = 0; a < f->owned; a++) {
+    const PgReal2 v_a = PgTwo(f->v, a);
+    PetscReal     sum = 0.0, rate = 0.0;
+
+    if (PgWcsphIsLiquid(f, a)) continue;
+    for (PetscInt k = w->list.ptr[a]; k < w->list.ptr[a + 1]; k++) {
+      const PetscInt i = w->list.col[k];
+      if (w->pair[k] != PG_PAIR_OF_SOLID) continue;
+      rate += f->m[i] / f->rho[i] * (PgDot(v_a - PgTwo(f->v, i), PgWcsphR(f, a, i)) * w->slope[k]);
+      sum += w->weight[k];
+    }
+    f->solid_rate[a] = sum > 0.0 ? w->dx * w->dx * rate / sum : 0.0;
+  }
+  PetscCall(PgStagePush(PG_STAGE_HALO));
+  PetscCall(PgParticlesHalo(w->particles, 1, &w->solid_rate));
+  PetscCall(PgStagePop());
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgWcsphDensityRate(PgWcsph w, PetscReal rate[])
 {
-  PgWcsphArrays f;
+  const PetscBool adjoint = (PetscBool)(w->solid == PG_WCSPH_ADJOINT);
+  PgWcsphArrays   f;
 
   PetscFunctionBeginUser;
   PetscCall(PgWcsphGetArrays(w, &f));
+  if (adjoint) PetscCall(SolidRate(w, &f));
   for (PetscInt a = 0; a < f.owned; a++) {
-    const PgReal2 v_a = PgTwo(f.v, a);
-    PetscReal     sum = 0.0;
+    const PgReal2   v_a   = PgTwo(f.v, a);
+    const PetscReal share = f.rho[a] * f.rho[a] / f.m[a];
+    PetscReal       sum   = 0.0;
 
     rate[a] = 0.0;
     if (!HasDensity(w, &f, a)) continue;
@@ -30,6 +56,7 @@ PetscErrorCode PgWcsphDensityRate(PgWcsph w, PetscReal rate[])
       const PgWcsphPair pair = (PgWcsphPair)w->pair[k];
       if (pair > PG_PAIR_OF_SOLID) continue;
       sum += Carried(w, &f, pair, a, b) * (PgDot(v_a - PgTwo(f.v, b), PgWcsphR(&f, a, b)) * w->slope[k]);
+      if (adjoint && pair == PG_PAIR_AT_SOLID) sum += share * (w->weight[k] * f.solid_rate[b]);
     }
     rate[a] = sum;
   }

@@ -18,6 +18,7 @@ static inline PetscReal PressureTerm(PgWcsph w, const PgWcsphArrays *f, PgWcsphP
   }
   if (w->solid == PG_WCSPH_MIRROR)
     return f->m[i] * V * (2.0 * f->p[i] / f->rho[i] + PgDot(PgTwo(w->gravity, 0), PgWcsphR(f, k, i)));
+  if (w->solid == PG_WCSPH_ADJOINT) return f->m[i] * V / f->rho[i] * (f->p[i] + f->p[k]);
   return f->m[i] * V * f->rho[k] * (f->p[i] / (f->rho[i] * f->rho[i]) + f->p[k] / (f->rho[k] * f->rho[k]));
 }
 

@@ -3,7 +3,7 @@
 
 static const char *const density_words[] = {"continuity", "summation"};
 static const char *const state_words[]   = {"linear", "tait"};
-static const char *const solid_words[]   = {"mirror", "extrapolated", "own"};
+static const char *const solid_words[]   = {"adjoint", "mirror", "extrapolated", "own"};
 static const char *const slip_words[]    = {"no_slip", "plain"};
 static const char *const kernel_words[]  = {"cubic_spline", "quintic_spline"};
 
@@ -46,11 +46,11 @@ static PetscErrorCode SchemeOptions(PgWcsph w, PetscOptionItems *PetscOptionsObj
                            "density: its rate by continuity, or from the positions by Eq. 26", 2, density_words,
                            &density, NULL));
   PetscCall(PgOptionChoice(PetscOptionsObject, "-wcsph_state", "equation of state", 2, state_words, &state, NULL));
-  PetscCall(
-      PgOptionChoice(PetscOptionsObject, "-wcsph_wall",
-                     "pressure of walls and bodies: of the partner in the liquid, of the liquid around (Adami, Hu "
-                     "and Adams; does not keep the energy), or by a density of their own",
-                     3, solid_words, &solid, NULL));
+  PetscCall(PgOptionChoice(
+      PetscOptionsObject, "-wcsph_wall",
+      "pressure of walls and bodies: of the liquid around, which also takes their change of volume; of the partner; of "
+      "the liquid around as Adami, Hu and Adams have it, which does not keep the energy; or by a density of their own",
+      4, solid_words, &solid, NULL));
   PetscCall(PgOptionChoice(PetscOptionsObject, "-wcsph_wall_velocity",
                            "velocity of walls and bodies in the viscous term: such that the liquid sticks to them, or "
                            "their own (first order only)",

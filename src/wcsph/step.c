@@ -179,7 +179,7 @@ PetscErrorCode PgWcsphForces(PgWcsph w)
   PetscCall(PgStagePop());
   PetscCall(Halo(w, 4, updated));
   if (w->solid != PG_WCSPH_OWN) PetscCall(PgWcsphSolidPressure(w));
-  if (w->solid == PG_WCSPH_EXTRAPOLATED) PetscCall(Halo(w, 2, solid));
+  if (w->solid == PG_WCSPH_EXTRAPOLATED || w->solid == PG_WCSPH_ADJOINT) PetscCall(Halo(w, 2, solid));
   PetscCall(PgStagePush(PG_STAGE_CONTACT));
   PetscCall(PgWcsphPairForces(w));
   PetscCall(PgStagePop());

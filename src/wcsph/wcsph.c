@@ -18,6 +18,8 @@ static PetscErrorCode RegisterFields(PgWcsph w)
         PG_FIELD_MIGRATE | PG_FIELD_OUTPUT | PG_FIELD_RESTART},
        &w->force},
       {{"slip_velocity", 2, "m/s", "velocity of a wall or body in the viscous term", PG_FIELD_HALO}, &w->slip_velocity},
+      {{"solid_rate", 1, "m2/s", "rate of volume of a wall or body particle over the sum of W", PG_FIELD_HALO},
+       &w->solid_rate},
       {{"contact_pressure", 1, "Pa", "pressure by which walls and bodies repel each other", PG_FIELD_HALO},
        &w->contact_pressure},
   };
@@ -43,7 +45,7 @@ PetscErrorCode PgWcsphCreate(MPI_Comm comm, PgWcsph *wcsph)
   w->contact   = 1.0;
   w->density   = PG_WCSPH_CONTINUITY;
   w->state     = PG_WCSPH_LINEAR;
-  w->solid     = PG_WCSPH_MIRROR;
+  w->solid     = PG_WCSPH_ADJOINT;
   w->slip      = PG_WCSPH_NO_SLIP;
   w->built     = -1;
   PetscCall(PgKernelFind("quintic_spline", &w->kernel));
@@ -91,6 +93,7 @@ PetscErrorCode PgWcsphGetArrays(PgWcsph w, PgWcsphArrays *f)
   PetscCall(PgParticlesGetArray(w->particles, w->force, &f->force));
   PetscCall(PgParticlesGetArray(w->particles, w->slip_velocity, &f->slip_velocity));
   PetscCall(PgParticlesGetArray(w->particles, w->contact_pressure, &f->contact_pressure));
+  PetscCall(PgParticlesGetArray(w->particles, w->solid_rate, &f->solid_rate));
   f->m     = m;
   f->kind  = kind;
   f->body  = body;

@@ -40,7 +40,7 @@ struct PgWcsph_s {
   PetscInt        *particle_id;
   PetscBool        set_up;
 
-  PgField kind, body, index, rho, p, force, slip_velocity, contact_pressure;
+  PgField kind, body, index, rho, p, force, slip_velocity, contact_pressure, solid_rate;
 
   /* by entry of the row list; by owned particle */
   PetscInt       entries, rows, built; /* capacities; revision of the lists */
@@ -60,7 +60,7 @@ struct PgWcsph_s {
 
 /* Arrays of the store, ghosts included. */
 typedef struct {
-  PetscReal       *x, *v, *rho, *p, *force, *slip_velocity, *contact_pressure;
+  PetscReal       *x, *v, *rho, *p, *force, *slip_velocity, *contact_pressure, *solid_rate;
   const PetscReal *m, *kind, *body, *index;
   PetscInt         owned, ghosts;
 } PgWcsphArrays;
