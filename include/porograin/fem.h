@@ -86,6 +86,12 @@ PETSC_EXTERN PetscErrorCode PgFemSetCondition(PgFem fem, const char boundary[], 
                                               const PetscReal value[]);
 PETSC_EXTERN PetscErrorCode PgFemSetConditionFunction(PgFem fem, const char boundary[], PgFemQuantity quantity,
                                                       PgFemFunction function, void *context);
+/* A load (traction, normal stress, flux) on the part of a boundary inside the rectangle low..high [m]. It is integrated
+   to the edges of the rectangle, which may cut cells, so that the whole load arrives on any mesh: what jumps should be
+   said in this way, a function is sampled at three points of a side. */
+PETSC_EXTERN PetscErrorCode PgFemSetLoadWithin(PgFem fem, const char boundary[], PgFemQuantity quantity,
+                                               const PetscReal low[2], const PetscReal high[2],
+                                               const PetscReal value[]);
 /* u and p at t = 0; default zero. Values 0, 1: displacement [m], 2: pressure [Pa]. */
 PETSC_EXTERN PetscErrorCode PgFemSetInitial(PgFem fem,
                                             void (*initial)(void *context, const PetscReal x[2], PetscReal value[3]),

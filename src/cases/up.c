@@ -211,6 +211,17 @@ static const PgColumn columns[COLUMNS] = {
     {"pressure_residual", "1", "residual of the solve, recomputed, over its right-hand side"},
 };
 
+/* Parts of a step that are not worth a step, or a matrix, of their own: the end may be a multiple but for rounding. */
+#define UNEVEN 1e-6
+
+/* The last step is cut to the end of the run. */
+static PetscReal StepSize(const PgUpRunSettings *run, PetscInt step)
+{
+  const PetscReal left = run->end - (PetscReal)(step - 1) * run->dt;
+
+  return step == run->steps && left < (1.0 - UNEVEN) * run->dt ? left : run->dt;
+}
+
 static PetscErrorCode ChooseSteps(PgUp up, PgUpRunSettings *run)
 {
   PetscFunctionBeginUser;
@@ -218,7 +229,7 @@ static PetscErrorCode ChooseSteps(PgUp up, PgUpRunSettings *run)
   if (run->end <= 0.0) run->end = up->end;
   PgInputCheck(run->end / run->dt < 1e8, up->comm, "%g steps to t = %g s with -dt %g s are too many",
                (double)(run->end / run->dt), (double)run->end, (double)run->dt);
-  run->steps = PetscMax(1, (PetscInt)PetscCeilReal(run->end / run->dt - 1e-9));
+  run->steps = PetscMax(1, (PetscInt)PetscCeilReal(run->end / run->dt - UNEVEN));
   if (run->every < 0.0) run->every = run->dt * (PetscReal)PetscMax(1, run->steps / 10);
   if (run->history < 0.0) run->history = run->dt;
   PetscFunctionReturn(0);
@@ -287,7 +298,7 @@ static PetscErrorCode TimeLoop(PgUp up, PgUpRunSettings *run)
   PetscFunctionBeginUser;
   PetscCall(Observe(up, run, 0));
   for (PetscInt step = 1; step <= run->steps; step++) {
-    PetscCall(PgFemStep(up->fem, run->dt));
+    PetscCall(PgFemStep(up->fem, StepSize(run, step)));
     PetscCall(Observe(up, run, step));
   }
   if (run->output) {
@@ -305,7 +316,7 @@ PetscErrorCode PgUpRun(PgUp up, const char output[])
   PetscCall(PgStagePush(PG_STAGE_SETUP));
   PetscCall(PgUpSetUp(up));
   PetscCall(ChooseSteps(up, run));
-  PetscCall(PgFemSetUpSolver(up->fem, run->dt));
+  PetscCall(PgFemSetUpSolver(up->fem, StepSize(run, 1)));
   PetscCall(PgOptionsCheckUnused(up->comm, PgFemProbeOptions, up->fem));
   if (output[0]) PetscCall(PgFemCreateOutput(up->fem, output, COLUMNS, columns, &run->output));
   PetscCall(PgStagePop());

@@ -2,6 +2,7 @@
 
    Physics   a uniform stress q on a strip of half width b; the ground below is held at its bottom, smooth at its sides,
              impermeable (or, with -up_footing_drained and a permeability, drained at its surface).
+   Load      integrated to the very edge of the strip, wherever that lies in a cell.
    Exact     of a half plane: the skeleton keeps its volume, so the water carries the mean stress, p = q theta/pi with
              theta the angle under which the strip is seen (Flamant).
    Locking   with the water locked in its pores bilinear displacements alone (-up_element q1) cannot keep the volume of
@@ -25,26 +26,53 @@ static PetscErrorCode Create(PgUp up, PetscOptionItems *PetscOptionsObject)
   PetscFunctionReturn(0);
 }
 
-static void Strip(void *context, PetscReal time, const PetscReal x[2], PetscReal value[2])
-{
-  const PgUp up = (PgUp)context;
-
-  (void)time;
-  value[0] = 0.0;
-  value[1] = x[0] < up->width ? -up->load : 0.0;
-}
-
 static PetscErrorCode Conditions(PgUp up)
 {
-  const PetscReal zero = 0.0;
+  const PetscReal zero = 0.0, traction[2] = {0.0, -up->load};
+  const PetscReal low[2] = {-up->width, -PETSC_MAX_REAL}, high[2] = {up->width, PETSC_MAX_REAL};
 
   PetscFunctionBeginUser;
   PetscCall(PgFemSetCondition(up->fem, "left", PG_FEM_DISPLACEMENT_X, &zero));
   PetscCall(PgFemSetCondition(up->fem, "right", PG_FEM_DISPLACEMENT_X, &zero));
   PetscCall(PgFemSetCondition(up->fem, "bottom", PG_FEM_DISPLACEMENT_X, &zero));
   PetscCall(PgFemSetCondition(up->fem, "bottom", PG_FEM_DISPLACEMENT_Y, &zero));
-  PetscCall(PgFemSetConditionFunction(up->fem, "top", PG_FEM_TRACTION, Strip, up));
+  PetscCall(PgFemSetLoadWithin(up->fem, "top", PG_FEM_TRACTION, low, high, traction));
   if (up->drained) PetscCall(PgFemSetCondition(up->fem, "top", PG_FEM_PRESSURE, &zero));
+  PetscFunctionReturn(0);
+}
+
+/* How much of from..to along x the boundary "top" has. */
+static PetscErrorCode Covered(PgUp up, PetscReal from, PetscReal to, PetscReal *length)
+{
+  PgFemEdges edges;
+  PgFemNodes nodes;
+  PetscReal  mine = 0.0;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgFemGetEdges(up->fem, "top", &edges));
+  PetscCall(PgFemGetNodes(up->fem, &nodes));
+  for (PetscInt e = 0; e < edges.count; e++) {
+    const PetscReal a = nodes.x[2 * edges.node[2 * e]], b = nodes.x[2 * edges.node[2 * e + 1]];
+    mine += PetscMax(0.0, PetscMin(PetscMax(a, b), to) - PetscMax(PetscMin(a, b), from));
+  }
+  PetscCallMPI(MPI_Allreduce(&mine, length, 1, MPIU_REAL, MPIU_SUM, up->comm));
+  PetscFunctionReturn(0);
+}
+
+/* The strip lies about x = 0; a mesh may have both halves of it or the right one. */
+static PetscErrorCode CheckStrip(PgUp up)
+{
+  const PetscReal b = up->width, rounding = 1e-9 * (up->high[0] - up->low[0]);
+  PetscReal       left, right;
+
+  PetscFunctionBeginUser;
+  PetscCall(Covered(up, -b, 0.0, &left));
+  PetscCall(Covered(up, 0.0, b, &right));
+  PgInputCheck(
+      PetscAbsReal(right - b) <= rounding && (left <= rounding || PetscAbsReal(left - b) <= rounding), up->comm,
+      "case up_footing: the strip of half width %g m lies on x = 0, but boundary 'top' has %g m of it to the left "
+      "of x = 0 and %g m to the right",
+      (double)b, (double)left, (double)right);
   PetscFunctionReturn(0);
 }
 
@@ -53,8 +81,9 @@ static PetscErrorCode Prepare(PgUp up)
   PgFemMaterial m;
 
   PetscFunctionBeginUser;
+  PetscCall(CheckStrip(up));
   PetscCall(PgFemGetMaterial(up->fem, &m));
-  up->probe[0] = up->low[0];
+  up->probe[0] = PetscMax(up->low[0], 0.0);
   up->probe[1] = up->high[1] - up->width;
   up->dt = up->end = 1.0; /* what cannot drain does not depend on time */
   if (m.k > 0.0 && up->drained) {
@@ -66,7 +95,7 @@ static PetscErrorCode Prepare(PgUp up)
 
 static PetscErrorCode Settlement(PgUp up, PetscReal *settlement)
 {
-  const PetscReal top[2] = {up->low[0], up->high[1]};
+  const PetscReal top[2] = {PetscMax(up->low[0], 0.0), up->high[1]};
 
   PetscFunctionBeginUser;
   PetscCall(PgUpSettlementAt(up, top, settlement));

@@ -1,4 +1,4 @@
-/* What is said of boundaries: held values, loads, plates. */
+/* What is said of boundaries: held values, plates, and whether they hold the whole. Loads: loads.c. */
 #include "femimpl.h"
 
 PetscErrorCode PgFemConditionsResolve(PgFem fem)
@@ -44,8 +44,7 @@ static PetscErrorCode ForBoundary(PgFem fem, const PgFemBoundary *b, PetscInt co
   PetscFunctionReturn(0);
 }
 
-/* The component that a condition holds or moves, -1: a load. */
-static PetscInt Component(PgFemQuantity quantity)
+PetscInt PgFemComponent(PgFemQuantity quantity)
 {
   switch (quantity) {
   case PG_FEM_DISPLACEMENT_X:
@@ -66,7 +65,7 @@ static PetscBool IsPlate(PgFemQuantity quantity)
   return (PetscBool)(quantity == PG_FEM_PLATE_X || quantity == PG_FEM_PLATE_Y);
 }
 
-static void ValueAt(const PgFemCondition *condition, PetscReal time, const PetscReal x[2], PetscReal value[2])
+void PgFemConditionValue(const PgFemCondition *condition, PetscReal time, const PetscReal x[2], PetscReal value[2])
 {
   value[0] = condition->value[0];
   value[1] = condition->value[1];
@@ -96,7 +95,7 @@ static PetscErrorCode Prescribe(PgFem fem, PetscInt dof, const PetscReal x[2], v
 
   PetscFunctionBeginUser;
   (void)fem;
-  ValueAt(p->condition, p->time, x, value);
+  PgFemConditionValue(p->condition, p->time, x, value);
   p->value[dof] = value[0];
   PetscFunctionReturn(0);
 }
@@ -107,7 +106,7 @@ PetscErrorCode PgFemPrescribe(PgFem fem, PetscReal time, PetscReal value[])
   for (PetscInt k = 0; k < fem->conditions; k++) {
     const PgFemCondition *condition = &fem->condition[k];
     Prescription          p         = {condition, time, value};
-    const PetscInt        component = Component(condition->quantity);
+    const PetscInt        component = PgFemComponent(condition->quantity);
     if (component < 0 || IsPlate(condition->quantity)) continue;
     PetscCall(ForBoundary(fem, &fem->boundary[condition->at], component, Prescribe, &p));
   }
@@ -179,7 +178,7 @@ static PetscErrorCode AddPlate(PgFem fem, PetscInt condition)
   PetscFunctionBeginUser;
   PetscCall(PetscMemzero(plate, sizeof *plate));
   plate->condition = condition;
-  plate->component = Component(fem->condition[condition].quantity);
+  plate->component = PgFemComponent(fem->condition[condition].quantity);
   PetscCall(ForBoundary(fem, b, plate->component, CountFixed, &held));
   PetscCallMPI(MPI_Allreduce(&held, &all, 1, MPIU_INT, MPI_SUM, fem->comm));
   PgInputCheck(all == 0, fem->comm,
@@ -199,7 +198,7 @@ PetscErrorCode PgFemConditionsMark(PgFem fem)
   PetscFunctionBeginUser;
   for (PetscInt k = 0; k < fem->conditions; k++) {
     const PgFemCondition *condition = &fem->condition[k];
-    const PetscInt        component = Component(condition->quantity);
+    const PetscInt        component = PgFemComponent(condition->quantity);
     if (IsPlate(condition->quantity))
       plates++;
     else if (component >= 0)
@@ -291,7 +290,7 @@ PetscErrorCode PgFemCheckHeld(PgFem fem)
   PetscCall(Extent(fem, &h));
   for (PetscInt k = 0; k < fem->conditions; k++) {
     const PgFemCondition *condition = &fem->condition[k];
-    h.component                     = Component(condition->quantity);
+    h.component                     = PgFemComponent(condition->quantity);
     h.plate                         = IsPlate(condition->quantity);
     if (h.component < 0 || h.component == 2) continue;
     if (h.plate) { /* against the node of smallest number, on the rank that has it */
@@ -320,82 +319,6 @@ PetscErrorCode PgFemCheckHeld(PgFem fem)
                  x <= 0.0   ? "moving along x"
                  : y <= 0.0 ? "moving along y"
                             : "turning");
-  }
-  PetscFunctionReturn(0);
-}
-
-/* ---- loads ---- */
-
-/* What acts at a place: traction, and water that leaves [m/s]. */
-static void LoadAt(PgFem fem, PetscInt boundary, PetscReal time, PetscReal time_flux, const PetscReal x[2],
-                   const PetscReal normal[2], PetscReal traction[2], PetscReal *flux)
-{
-  for (PetscInt k = 0; k < fem->conditions; k++) {
-    const PgFemCondition *condition = &fem->condition[k];
-    PetscReal             value[2];
-    if (condition->at != boundary) continue;
-    ValueAt(condition, condition->quantity == PG_FEM_FLUX ? time_flux : time, x, value);
-    for (int d = 0; d < 2; d++) {
-      if (condition->quantity == PG_FEM_TRACTION) traction[d] += value[d];
-      if (condition->quantity == PG_FEM_NORMAL_STRESS) traction[d] += value[0] * normal[d];
-    }
-    if (condition->quantity == PG_FEM_FLUX) *flux += value[0];
-  }
-}
-
-static void AddSide(PgFem fem, PetscInt boundary, PetscInt piece, PetscReal time, PetscReal time_flux, PetscReal dt,
-                    PetscReal load[])
-{
-  static const PetscReal s[3] = {-0.774596669241483377, 0.0, 0.774596669241483377}, w[3] = {5. / 9., 8. / 9., 5. / 9.};
-  const PgFemBoundary   *b    = &fem->boundary[boundary];
-  const PgFemSide        side = b->side[piece];
-  const PetscInt         v[2] = {side.side, (side.side + 1) % 4}, *dof = fem->dof + side.cell * fem->dofs;
-  const PetscReal       *x0 = &fem->x[2 * b->node[2 * piece]], *x1 = &fem->x[2 * b->node[2 * piece + 1]];
-  const PetscReal        d[2] = {x1[0] - x0[0], x1[1] - x0[1]}, length = PetscSqrtReal(d[0] * d[0] + d[1] * d[1]);
-  const PetscReal        normal[2] = {d[1] / length, -d[0] / length};
-  const PetscBool        high      = (PetscBool)(fem->un == 9);
-
-  for (int q = 0; q < 3; q++) {
-    const PetscReal N[2] = {0.5 * (1.0 - s[q]), 0.5 * (1.0 + s[q])}, bubble = high ? 1.0 - s[q] * s[q] : 0.0;
-    const PetscReal x[2] = {N[0] * x0[0] + N[1] * x1[0], N[0] * x0[1] + N[1] * x1[1]}, ds = 0.5 * length * w[q];
-    PetscReal       traction[2] = {0.0, 0.0}, flux = 0.0;
-    LoadAt(fem, boundary, time, time_flux, x, normal, traction, &flux);
-    for (int i = 0; i < 2; i++) {
-      if (b->traction) traction[i] += b->traction[2 * piece + i];
-      for (int e = 0; e < 2; e++) load[dof[2 * v[e] + i]] += ds * traction[i] * (N[e] - 0.5 * bubble);
-      if (high) load[dof[2 * (4 + side.side) + i]] += ds * traction[i] * bubble;
-    }
-    for (int e = 0; e < 2; e++) load[dof[2 * fem->un + v[e]]] += ds * flux * N[e] * dt * fem->scale;
-  }
-}
-
-PetscErrorCode PgFemAddLoads(PgFem fem, PetscReal time, PetscReal time_flux, PetscReal dt, PetscReal load[])
-{
-  PetscInt first, last;
-
-  PetscFunctionBeginUser;
-  for (PetscInt b = 0; b < fem->boundaries; b++) {
-    PetscBool any = (PetscBool)(fem->boundary[b].traction != NULL);
-    for (PetscInt k = 0; k < fem->conditions; k++)
-      if (fem->condition[k].at == b && Component(fem->condition[k].quantity) < 0) any = PETSC_TRUE;
-    for (PetscInt piece = 0; any && piece < fem->boundary[b].count; piece++)
-      AddSide(fem, b, piece, time, time_flux, dt, load);
-  }
-  for (PetscInt m = 0; m < fem->plates; m++) {
-    const PgFemPlate *plate = &fem->plate[m];
-    const PetscReal   x[2]  = {0.0, 0.0};
-    PetscReal         value[2];
-    if (plate->owner != fem->rank) continue;
-    ValueAt(&fem->condition[plate->condition], time, x, value);
-    load[plate->master_local] += value[0];
-  }
-  if (fem->force) {
-    PetscCall(DMPlexGetDepthStratum(fem->dm, 0, &first, &last));
-    for (PetscInt i = 0; i < fem->nodes; i++) {
-      PetscInt at;
-      PetscCall(PetscSectionGetOffset(fem->section, first + i, &at));
-      for (int d = 0; d < 2; d++) load[at + d] += fem->force[2 * i + d];
-    }
   }
   PetscFunctionReturn(0);
 }

@@ -186,6 +186,27 @@ PetscErrorCode PgFemSetConditionFunction(PgFem fem, const char boundary[], PgFem
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgFemSetLoadWithin(PgFem fem, const char boundary[], PgFemQuantity quantity, const PetscReal low[2],
+                                  const PetscReal high[2], const PetscReal value[])
+{
+  PgFemCondition *condition;
+
+  PetscFunctionBeginUser;
+  PetscCheck(PgFemComponent(quantity) < 0, fem->comm, PETSC_ERR_ARG_WRONG,
+             "only tractions, normal stresses and fluxes act on a part of a boundary");
+  PgInputCheck(low[0] < high[0] && low[1] < high[1], fem->comm,
+               "up: a load within (%g, %g) and (%g, %g) m: the first corner must be the lower left one", (double)low[0],
+               (double)low[1], (double)high[0], (double)high[1]);
+  PetscCall(PgFemSetCondition(fem, boundary, quantity, value));
+  condition         = &fem->condition[fem->conditions - 1];
+  condition->within = PETSC_TRUE;
+  for (int d = 0; d < 2; d++) {
+    condition->low[d]  = low[d];
+    condition->high[d] = high[d];
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgFemSetInitial(PgFem fem, void (*initial)(void *, const PetscReal[2], PetscReal[3]), void *context)
 {
   PetscFunctionBeginUser;

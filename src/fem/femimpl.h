@@ -18,7 +18,9 @@ typedef struct {
   PetscReal     value[2];
   PgFemFunction function; /* NULL: the value */
   void         *context;
-  PetscInt      at; /* number of the boundary in the mesh */
+  PetscBool     within;          /* a load on the part of the boundary in this rectangle alone */
+  PetscReal     low[2], high[2]; /* [m] */
+  PetscInt      at;              /* number of the boundary in the mesh */
 } PgFemCondition;
 
 /* A piece of a boundary. */
@@ -188,7 +190,12 @@ PETSC_INTERN PetscErrorCode PgFemConditionsMark(PgFem fem);
 PETSC_INTERN PetscErrorCode PgFemCheckHeld(PgFem fem);
 /* Writes the prescribed values of `time` into the local unknowns. */
 PETSC_INTERN PetscErrorCode PgFemPrescribe(PgFem fem, PetscReal time, PetscReal value[]);
-/* Adds loads on boundaries: forces at `time`, water that leaves at `time_flux` for dt seconds. */
+/* The component that a condition holds or moves, 2: pressure, -1: a load. */
+PETSC_INTERN PetscInt PgFemComponent(PgFemQuantity quantity);
+PETSC_INTERN void     PgFemConditionValue(const PgFemCondition *condition, PetscReal time, const PetscReal x[2],
+                                          PetscReal value[2]);
+
+/* loads.c: adds loads on boundaries: forces at `time`, water that leaves at `time_flux` for dt seconds. */
 PETSC_INTERN PetscErrorCode PgFemAddLoads(PgFem fem, PetscReal time, PetscReal time_flux, PetscReal dt,
                                           PetscReal load[]);
 

@@ -46,8 +46,9 @@ up_consolidation ; src/fem/material.c ; s/(m->alpha - m->n) \/ m->K_s/m->alpha \
 up_consolidation ; src/fem/element.c ; s/c->D \* (-grad\[i\] + c->rho_f \* gravity\[i\])/0.99 * c->D * (-grad[i] + c->rho_f * gravity[i])/ ; Darcy's law of the continuum 1 % weaker
 up_consolidation ; src/fem/step.c ; s/load\[plate->master_local\] += all/load[plate->master_local] += 0.99 * all/ ; forces under a plate 1 % off
 up_stability ; src/fem/system.c ; s/fem->stabilisation \/ M/0.99 * fem->stabilisation \/ M/ ; pressure projection 1 % weaker
-up_footing ; src/fem/conditions.c ; s/(N\[e\] - 0.5 \* bubble)/(N[e] - 0.45 * bubble)/ ; loads of Q2 edges wrong at their ends
+up_footing ; src/fem/loads.c ; s/(N\[e\] - 0.5 \* bubble)/(N[e] - 0.45 * bubble)/ ; loads of Q2 edges wrong at their ends
 up_footing ; src/fem/element.c ; s/v->stress\[2\]  *= c->G \* e\[2\]/v->stress[2] = 1.02 * c->G * e[2]/ ; shear stress 2 % too large
+up_footing ; src/fem/loads.c ; s/ds = (to - from) \* weight/ds = weight/ ; load of a side that is loaded in part over its whole length
 up_zones ; src/fem/system.c ; s/= PgFemStorage(m)/= 100.0 * PgFemStorage(m)/ ; water and grains a hundred times softer
 up_inertia ; src/fem/step.c ; s/- (1.0 - theta) \/ theta \* a;/- 0.98 * (1.0 - theta) \/ theta * a;/ ; old acceleration 2 % off in the trapezoidal rule
 up_solver ; src/fem/solver.c ; s/"-up_fieldsplit_u_pc_type", "hypre"/"-up_fieldsplit_u_pc_type", "jacobi"/ ; displacements preconditioned by Jacobi

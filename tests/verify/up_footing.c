@@ -6,14 +6,6 @@
 
 static const PetscReal q = 1e4, G = 4e6, size = 4.0;
 
-static void StripTraction(void *context, PetscReal time, const PetscReal x[2], PetscReal value[2])
-{
-  (void)context;
-  (void)time;
-  value[0] = 0.0;
-  value[1] = x[0] < 1.0 ? -q : 0.0;
-}
-
 static void ExactX(void *context, PetscReal time, const PetscReal x[2], PetscReal value[2])
 {
   PetscReal u[2], p;
@@ -53,7 +45,7 @@ static void HalfPlane(PetscInt cells, PgFemElement element, PetscReal factor, Pe
 {
   const PetscInt  n[2]   = {cells, cells};
   const PetscReal low[2] = {0.0, -size}, high[2] = {size, 0.0}, corner[2] = {size, -size}, top[2] = {0.0, 0.0},
-                  zero = 0;
+                  zero = 0, traction[2] = {0.0, -q}, edge[2] = {1.0, 1.0};
   PetscReal     sum[4], u[2], p, far, middle, found = 0.0;
   PgFemMaterial m;
   PgFemNodes    nodes;
@@ -76,7 +68,7 @@ static void HalfPlane(PetscInt cells, PgFemElement element, PetscReal factor, Pe
   CHECK(PgFemSetConditionFunction(fem, "right", PG_FEM_DISPLACEMENT_Y, ExactY, NULL));
   CHECK(PgFemSetConditionFunction(fem, "bottom", PG_FEM_DISPLACEMENT_X, ExactX, NULL));
   CHECK(PgFemSetConditionFunction(fem, "bottom", PG_FEM_DISPLACEMENT_Y, ExactY, NULL));
-  CHECK(PgFemSetConditionFunction(fem, "top", PG_FEM_TRACTION, StripTraction, NULL));
+  CHECK(PgFemSetLoadWithin(fem, "top", PG_FEM_TRACTION, low, edge, traction));
   CHECK(PgFemSetUp(fem));
   CHECK(PgFemStep(fem, 1.0));
   CHECK(PgFemIntegrate(fem, 4, Errors, NULL, sum));
@@ -182,7 +174,47 @@ static void Locking(void **state)
               "alternates from node to node about 0.5");
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(Exact), cmocka_unit_test(Locking)};
+static void VerticalStress(void *context, const PgFemPoint *point, PetscReal value[])
+{
+  (void)context;
+  value[0] = point->stress[1] - point->pressure;
+  value[1] = 1.0;
+}
+
+/* The whole load arrives, wherever the edge of the strip lies in a cell: on ground with smooth sides the vertical stress
+   of the mixture has the mean -q b/width, whatever the mesh. */
+static void WholeLoad(void **state)
+{
+  static const struct {
+    const char *options;
+    PetscReal   b;
+  } kind[] = {{"-up_cells 9,9 -up_element q2q1", 1.0},
+              {"-up_cells 12,5 -up_element q2q1", 1.0},
+              {"-up_cells 4,4 -up_footing_width 0.1", 0.1}};
+
+  (void)state;
+  for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
+    PetscReal sum[2];
+    char      name[128];
+    PgFem     fem;
+    PgUp      up;
+    CHECK(PetscOptionsClear(NULL));
+    CHECK(PetscOptionsInsertString(NULL, "-up_ksp_type preonly -up_pc_type lu"));
+    CHECK(PetscOptionsInsertString(NULL, kind[k].options));
+    CHECK(PgUpCreate(PETSC_COMM_WORLD, "up_footing", &up));
+    CHECK(PgUpSetUp(up));
+    CHECK(PgUpGetFem(up, &fem));
+    CHECK(PgFemStep(fem, 1.0));
+    CHECK(PgFemIntegrate(fem, 2, VerticalStress, NULL, sum));
+    (void)snprintf(name, sizeof name, "mean vertical stress [Pa], %s", kind[k].options);
+    VerifyValue("up_footing", name, -1e4 * kind[k].b / 8.0, sum[0] / sum[1], 0.0, 1e-10,
+                "equilibrium; rounding of 1e-16 times the condition");
+    CHECK(PgUpDestroy(&up));
+  }
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(Exact), cmocka_unit_test(Locking),
+                                          cmocka_unit_test(WholeLoad)};
 
 int main(int argc, char *argv[])
 {
