@@ -6,6 +6,7 @@
 #include <porograin/dem.h>
 #include <porograin/fem.h>
 #include <porograin/pore.h>
+#include <porograin/wcsph.h>
 
 /* What a case gets and what it fills in. */
 typedef struct {
@@ -103,3 +104,20 @@ PETSC_EXTERN PetscErrorCode PgUpGetSettlement(PgUp up, PetscReal *settlement); /
 PETSC_EXTERN PetscErrorCode PgUpGetProbe(PgUp up, PetscReal *pressure);        /* [Pa], where the case watches it */
 /* All of a run of the program: set-up, steps, results, as -dt, -end_time and their kin say; output: FILE.h5 or empty. */
 PETSC_EXTERN PetscErrorCode PgUpRun(PgUp up, const char output[]);
+
+/* ---- problems of the weakly compressible liquid: wcsph_poiseuille, wcsph_couette, wcsph_hydrostatic ---- */
+
+typedef struct PgLiquid_s *PgLiquid;
+/* Reads the options of the problem and of its liquid (-wcsph_*). Collective, as all that follow. */
+PETSC_EXTERN PetscErrorCode PgLiquidCreate(MPI_Comm comm, const char name[], PgLiquid *liquid);
+PETSC_EXTERN PetscErrorCode PgLiquidDestroy(PgLiquid *liquid);
+PETSC_EXTERN PetscErrorCode PgLiquidGetWcsph(PgLiquid liquid, PgWcsph *wcsph);
+/* Makes the particles; after it `wcsph` can be stepped. */
+PETSC_EXTERN PetscErrorCode PgLiquidSetUp(PgLiquid liquid);
+/* Time step and end of the run [s]; after SetUp. */
+PETSC_EXTERN PetscErrorCode PgLiquidGetTimes(PgLiquid liquid, PetscReal *dt, PetscReal *end);
+/* Against the exact solution: relative L2 norm over the particles of the liquid, and the largest deviation over the speed
+   of the flow or the pressure rho_0 |g| H. */
+PETSC_EXTERN PetscErrorCode PgLiquidGetErrors(PgLiquid liquid, PetscReal *l2, PetscReal *most);
+/* All of a run of the program: set-up, steps, results; output: FILE.h5 or empty. */
+PETSC_EXTERN PetscErrorCode PgLiquidRun(PgLiquid liquid, const char output[]);

@@ -104,6 +104,14 @@ PETSC_EXTERN PetscErrorCode PgWcsphForces(PgWcsph wcsph);
 PETSC_EXTERN PetscErrorCode PgWcsphStep(PgWcsph wcsph, PetscReal dt);
 PETSC_EXTERN PetscErrorCode PgWcsphGetTime(PgWcsph wcsph, PetscInt *step, PetscReal *time);
 
+/* ---- what was set ---- */
+
+/* Each may be NULL but `wcsph`; not collective, as the next two. */
+PETSC_EXTERN PetscErrorCode PgWcsphGetLiquid(PgWcsph wcsph, PetscReal *rho_0, PetscReal *mu, PetscReal *c_0,
+                                             PetscReal gravity[2]);
+PETSC_EXTERN PetscErrorCode PgWcsphGetState(PgWcsph wcsph, PgWcsphState *state);
+PETSC_EXTERN PetscErrorCode PgWcsphGetReach(PgWcsph wcsph, PetscReal *reach); /* of the kernel [m]; after SetSpacing */
+
 /* ---- what has become of it ---- */
 
 /* The store, with the fields of the room particles (mass; radius is dx/2) and

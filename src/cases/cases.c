@@ -2,13 +2,14 @@
 #include "casesimpl.h"
 
 static const PgCaseInfo *const cases[] = {
-    &PgCasePanel,         &PgCasePacking,           &PgCaseBox,
-    &PgCaseBedDarcy,      &PgCaseBedErgun,          &PgCaseBedNsToDarcy,
-    &PgCaseColumn,        &PgCaseColumnHydrostatic, &PgCaseColumnTerzaghi,
-    &PgCaseColumnSeepage, &PgCaseUndrained,         &PgCaseDiscCollision,
-    &PgCaseDiscOnPlane,   &PgCaseDiscOnIncline,     &PgCaseLatticeModulus,
-    &PgCaseBiaxial,       &PgCaseOperatorMms,       &PgCasePressureMms,
-    &PgCaseUpTerzaghi,    &PgCaseUpMandel,          &PgCaseUpFooting,
+    &PgCasePanel,           &PgCasePacking,           &PgCaseBox,
+    &PgCaseBedDarcy,        &PgCaseBedErgun,          &PgCaseBedNsToDarcy,
+    &PgCaseColumn,          &PgCaseColumnHydrostatic, &PgCaseColumnTerzaghi,
+    &PgCaseColumnSeepage,   &PgCaseUndrained,         &PgCaseDiscCollision,
+    &PgCaseDiscOnPlane,     &PgCaseDiscOnIncline,     &PgCaseLatticeModulus,
+    &PgCaseBiaxial,         &PgCaseOperatorMms,       &PgCasePressureMms,
+    &PgCaseUpTerzaghi,      &PgCaseUpMandel,          &PgCaseUpFooting,
+    &PgCaseWcsphPoiseuille, &PgCaseWcsphCouette,      &PgCaseWcsphHydrostatic,
 };
 enum { CASES = sizeof cases / sizeof *cases };
 static const char *names[CASES];

@@ -9,6 +9,7 @@ PETSC_INTERN const PgCaseInfo PgCaseColumn, PgCaseColumnHydrostatic, PgCaseColum
     PgCaseUndrained;
 PETSC_INTERN const PgCaseInfo PgCaseDiscCollision, PgCaseDiscOnPlane, PgCaseDiscOnIncline, PgCaseLatticeModulus,
     PgCaseBiaxial, PgCaseUpTerzaghi, PgCaseUpMandel, PgCaseUpFooting, PgCaseOperatorMms, PgCasePressureMms;
+PETSC_INTERN const PgCaseInfo PgCaseWcsphPoiseuille, PgCaseWcsphCouette, PgCaseWcsphHydrostatic;
 
 /* Makes discs with ids [0, total), dealt out evenly: this rank gets `owned` of them from `first` on. Collective. */
 PETSC_INTERN PetscErrorCode PgCaseDealDiscs(PgCaseSetup *setup, PetscInt64 total, PetscInt *first, PetscInt *owned);

@@ -116,6 +116,30 @@ PetscErrorCode PgWcsphGetTime(PgWcsph w, PetscInt *step, PetscReal *time)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgWcsphGetLiquid(PgWcsph w, PetscReal *rho_0, PetscReal *mu, PetscReal *c_0, PetscReal gravity[2])
+{
+  PetscFunctionBeginUser;
+  if (rho_0) *rho_0 = w->rho_0;
+  if (mu) *mu = w->mu;
+  if (c_0) *c_0 = w->c_0;
+  if (gravity) PetscCall(PetscArraycpy(gravity, w->gravity, 2));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgWcsphGetState(PgWcsph w, PgWcsphState *state)
+{
+  PetscFunctionBeginUser;
+  *state = w->state;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgWcsphGetReach(PgWcsph w, PetscReal *reach)
+{
+  PetscFunctionBeginUser;
+  *reach = w->kernel->support * w->smoothing * w->dx;
+  PetscFunctionReturn(0);
+}
+
 /* ---- settings ---- */
 
 static PetscErrorCode BeforeSetUp(PgWcsph w)
