@@ -30,14 +30,16 @@ typedef enum {
 typedef enum { PG_WCSPH_CONTINUITY, PG_WCSPH_SUMMATION } PgWcsphDensity;
 typedef enum { PG_WCSPH_LINEAR, PG_WCSPH_TAIT } PgWcsphState;
 /* Pressure of a wall or body particle k as its partner i in the liquid meets it, and what it does to the density of i.
-   All but EXTRAPOLATED keep the energy: the work of the pressure on i and k is what the liquid stores. */
+   All but EXTRAPOLATED keep the energy: the work of the pressure on i and k is what the liquid stores. Particles of
+   solids do not meet in any of them but OWN with SUMMATION: see PgWcsphSetContact(). */
 typedef enum {
-  PG_WCSPH_ADJOINT, /* p_k = mean of p_i + rho_i g.(x_k - x_i) over the liquid around k (Adami, Hu & Adams 2012), and what the
-                       flow does to the volume of k goes to the density of that liquid with the same weights */
-  PG_WCSPH_MIRROR,       /* p_k = p_i + rho_i g.(x_k - x_i), and k adds twice to d rho_i/dt: nothing is stored on k */
+  PG_WCSPH_ADJOINT, /* p_k = mean of p_i + rho_i g.(x_k - x_i) over the liquid around k (Adami, Hu & Adams 2012), and
+                            what the flow does to the volume of k goes to the density of that liquid, same weights */
+  PG_WCSPH_MIRROR,  /* p_k = p_i + rho_i g.(x_k - x_i), and k adds twice to d rho_i/dt: nothing is stored on k, and a
+                            plane wall takes no force along itself from the pressure */
   PG_WCSPH_EXTRAPOLATED, /* p_k as for ADJOINT, but nothing of k goes to the liquid: as published */
-  PG_WCSPH_OWN /* k has a density of its own, from its partners in the liquid and by diffusion (or, with SUMMATION, by
-                  Eq. 26) */
+  PG_WCSPH_OWN           /* k has a density of its own, from its partners in the liquid and by diffusion (or, with
+                            SUMMATION, by Eq. 26); what slides along it leaves its mark there */
 } PgWcsphSolid;
 /* Velocity of a wall or body particle in the viscous term. */
 typedef enum {
@@ -57,7 +59,7 @@ PETSC_EXTERN PetscErrorCode PgWcsphSetLiquid(PgWcsph wcsph, PetscReal rho_0, Pet
 PETSC_EXTERN PetscErrorCode PgWcsphSetGravity(PgWcsph wcsph, const PetscReal gravity[2]); /* [m/s2] */
 PETSC_EXTERN PetscErrorCode PgWcsphSetDensity(PgWcsph wcsph, PgWcsphDensity density);     /* default CONTINUITY */
 PETSC_EXTERN PetscErrorCode PgWcsphSetState(PgWcsph wcsph, PgWcsphState state);           /* default LINEAR */
-PETSC_EXTERN PetscErrorCode PgWcsphSetSolid(PgWcsph wcsph, PgWcsphSolid solid);           /* default ADJOINT */
+PETSC_EXTERN PetscErrorCode PgWcsphSetSolid(PgWcsph wcsph, PgWcsphSolid solid);           /* default MIRROR */
 PETSC_EXTERN PetscErrorCode PgWcsphSetSlip(PgWcsph wcsph, PgWcsphSlip slip);              /* default NO_SLIP */
 /* "cubic_spline" or "quintic_spline" and h/dx; default quintic, 1.2. */
 PETSC_EXTERN PetscErrorCode PgWcsphSetKernel(PgWcsph wcsph, const char kernel[], PetscReal smoothing);

@@ -45,7 +45,7 @@ PetscErrorCode PgWcsphCreate(MPI_Comm comm, PgWcsph *wcsph)
   w->contact   = 1.0;
   w->density   = PG_WCSPH_CONTINUITY;
   w->state     = PG_WCSPH_LINEAR;
-  w->solid     = PG_WCSPH_ADJOINT;
+  w->solid     = PG_WCSPH_MIRROR;
   w->slip      = PG_WCSPH_NO_SLIP;
   w->built     = -1;
   PetscCall(PgKernelFind("quintic_spline", &w->kernel));
