@@ -115,7 +115,7 @@ assembly() {
 }
 ranks() { # shellcheck disable=SC2046
   local p
-  for p in 1 2; do
+  for p in 1 2 4; do
     put "dry$p" "$(slope wall 199711 150 $mpiexec -n $p $(panel 316 2 -fluid none) -- $mpiexec -n $p $(panel 316 152 -fluid none))"
     put "ns$p" "$(slope wall 199711 100 $mpiexec -n $p $(panel 316 10 -options_file quiet.opts -fluid_every 10) -- \
       $mpiexec -n $p $(panel 316 110 -options_file quiet.opts -fluid_every 10))"
@@ -166,5 +166,7 @@ for w in 25 316; do
 done
 row dry2 "2 ranks against 1, 199711 discs, dry" "disc-steps/wall s" ">= 1.85 x" dry1 "1 rank"
 row ns2 "2 ranks against 1, 199711 discs, N-S implicit" "disc-steps/wall s" ">= 1.7 x" ns1 "1 rank"
+row dry4 "4 ranks against 1, 199711 discs, dry" "disc-steps/wall s" - dry1 "1 rank"
+row ns4 "4 ranks against 1, 199711 discs, N-S implicit" "disc-steps/wall s" - ns1 "1 rank"
 row million "999697 discs, N-S implicit, 2 ranks, 100 steps" "GiB" "<= 3"
 row balance "the same, 20 steps: most discs on a rank" "of the mean" "<= 1.1"
