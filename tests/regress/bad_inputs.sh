@@ -36,13 +36,12 @@ one() {
   printf '| %s | %s | %s |\n' "$label" "$status" "$message" >"row-$number-a"
 }
 
-# bad STATUS NAME LABEL command...: two at a time; NAME must be in the message, NUMBER in the command becomes the row's
+# bad STATUS NAME LABEL command...: NAME must be in the message, NUMBER in the command becomes the row's
 bad() {
   local number
   count=$((count + 1))
   number=$(printf %03d $count)
-  one "$number" "${@//NUMBER/$number}" &
-  if [ $((count % 2)) -eq 0 ]; then wait; fi
+  beside one "$number" "${@//NUMBER/$number}"
 }
 
 # made NAME TEXT: a file of that text, with printf's escapes, which the table shows.
@@ -361,7 +360,7 @@ option -dem_mu_s -dem_mu_s
 option -permeabilty -fluid darcy -permeabilty 1e-6
 option -dem_energy -dem_energy maybe
 
-wait
+together
 if compgen -G 'failed-*' >/dev/null; then
   cat failed-* >&2
   fail "$(find . -maxdepth 1 -name 'failed-*' | wc -l) of $count inputs"

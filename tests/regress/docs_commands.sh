@@ -21,6 +21,7 @@ for program in porograin porograin-study porograin-plot; do
   printf '#!/usr/bin/env bash\nexec %q "$@" $SHORT_%s\n' "${!variable}" "$variable" >programs/$program
   chmod +x programs/$program
 done
+ln -s "$MPIEXEC" programs/mpiexec
 PATH=$home/programs:$PATH
 # The Python of the distribution, which has its packages.
 if [ -x /usr/bin/python3 ]; then ln -s /usr/bin/python3 programs/python3; fi

@@ -60,13 +60,12 @@ failing() {
 }
 
 tried=0
-# Two at a time; every second one is followed by failures only.
+# Every second one is followed by failures only.
 try() {
   local later=
   [ $((tried % 2)) -eq 0 ] || later=1
   tried=$((tried + 1))
-  failing "$1" "$2" "${errors[$((tried / 2 % ${#errors[@]}))]}" "$later" &
-  if [ $((tried % 2)) -eq 0 ]; then wait; fi
+  beside failing "$1" "$2" "${errors[$((tried / 2 % ${#errors[@]}))]}" "$later"
 }
 
 reads=0
@@ -77,13 +76,12 @@ while read -r number name; do
   fi
   try 1 "$number"
 done <whole/calls
-wait
 
 # on two ranks the other one is not left waiting
 calls=$(wc -l <whole/calls)
 step=$((every == 1 ? 10 : calls / 6))
 for ((number = step; number <= calls; number += step)); do try 2 "$number"; done
-wait
+together
 
 cat run-*.wrong >wrong
 [ ! -s wrong ] || { head -n 40 wrong >&2; fail "$(cut -d: -f1 wrong | sort -u | wc -l) of $tried runs"; }

@@ -29,3 +29,27 @@ must_fail expect_match '^5' history.csv
 
 # The scratch folder is the test's own and was empty.
 [ "$PWD" = "$(cd "$WORK_DIR" && pwd)" ] || fail "runs in $PWD"
+
+# Side by side: all is well only when all are; nobody is forgotten; what they say is shown, in their order.
+# shellcheck disable=SC2016
+both='. "$SOURCE_DIR/tests/support/regress.sh"; beside sleep 0.2; beside eval "echo first; $1; echo second"; together'
+[ "$(bash -c "$both" _ true | paste -sd ' ')" = 'first second' ] || fail 'together does not show what was said'
+for wrong in false 'fail nothing' 'exit 3' 'kill -9 $BASHPID' 'expect_match ^5 history.csv' 'cd nowhere'; do
+  must_fail bash -c "$both" _ "$wrong"
+done
+must_fail bash -c "${both%together}" _ false
+must_fail bash -c "${both%together}" _ true
+bash -c "$both; $both" _ true >twice
+[ "$(wc -l <twice)" -eq 4 ] || fail 'a second together'
+rm -f beside.*
+at_once() { # how many are there at once: each counts those that have begun and not ended
+  mkdir "here.$1"
+  find . -maxdepth 1 -name 'here.*' | wc -l >>counts
+  sleep 0.3
+  rmdir "here.$1"
+}
+abreast=3
+for k in 1 2 3 4 5 6 7; do beside at_once $k; done
+together
+[ "$(sort -n counts | tail -n 1)" -eq 3 ] || fail "at once: $(paste -sd ' ' counts)"
+! ls beside.* 2>/dev/null || fail 'files are left'

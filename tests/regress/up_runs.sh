@@ -8,15 +8,26 @@ options="$SOURCE_DIR/options"
 # last FILE COLUMN: the last value of a column
 last() { csv_column "$1" "$2" | tail -n 1; }
 
-# ---- shipped files ----
-for case in terzaghi mandel footing footing_locking; do
-  end=()
-  [ $case != terzaghi ] || end=(-end_time 18) # T = 0.2
-  [ $case != mandel ] || end=(-end_time 10)
-  "$POROGRAIN" -options_file "$options/up_$case.opts" "${end[@]}" -output "$case.h5" >"$case.out" 2>&1 ||
-    { cat "$case.out" >&2; fail "up_$case.opts"; }
-  expect_match "wrote $case.h5" "$case.out"
+# simulate NAME RANKS options...: NAME.h5 and NAME.out
+simulate() {
+  local name=$1 n=$2
+  shift 2
+  run "$n" "$POROGRAIN" "$@" -output "$name.h5" >"$name.out" 2>&1 || { cat "$name.out" >&2; fail "$name"; }
+  expect_match "wrote $name.h5" "$name.out"
+}
+
+beside simulate terzaghi 1 -options_file "$options/up_terzaghi.opts" -end_time 18 # T = 0.2
+beside simulate mandel 1 -options_file "$options/up_mandel.opts" -end_time 10
+for name in footing footing_locking; do beside simulate $name 1 -options_file "$options/up_$name.opts"; done
+for solver in up_direct up_minres; do
+  beside simulate $solver 1 -options_file "$options/up_footing.opts" -options_file "$options/$solver.opts" -up_cells 24,24
 done
+for n in 1 2 4; do
+  beside simulate ranks$n $n -options_file "$options/up_mandel.opts" -up_element q2q1 -up_cells 10,7 -end_time 2
+done
+together
+
+# ---- shipped files ----
 # ten seconds are no multiple of Mandel's step: the last one is cut
 expect_close "$(last mandel.csv time)" 10 1e-9
 # q H/M U(0.2), U from the series; 40 cells and steps of T = 0.002 are good for 1e-3
@@ -30,19 +41,13 @@ expect_close "$(awk -v a="$(last footing_locking.csv displacement)" -v b="$(last
 [ "$(find "$options" -name 'up_*.opts' | wc -l)" -eq 6 ] || fail "not 6 files up_*.opts"
 
 # ---- solvers ----
-for solver in up_direct up_minres; do
-  "$POROGRAIN" -options_file "$options/up_footing.opts" -options_file "$options/$solver.opts" -up_cells 24,24 -output $solver.h5 \
-    >$solver.out 2>&1 || { cat $solver.out >&2; fail "$solver.opts"; }
-done
 expect_match 'iterations 1$' up_direct.out
 # MINRES stops on another norm
 expect_close "$(last up_minres.csv displacement)" "$(last up_direct.csv displacement)" 1e-10
 
 # ---- 1, 2 and 4 ranks: the same mesh in the file, and results within the tolerance of the solver, 1e-10 of some 1e4 Pa
 # and 1e-3 m, times what is left of the condition ----
-for n in 1 2 4; do
-  run $n "$POROGRAIN" -options_file "$options/up_mandel.opts" -up_element q2q1 -up_cells 10,7 -end_time 2 -output ranks$n.h5 \
-    >ranks$n.out 2>&1 || { cat ranks$n.out >&2; fail "$n ranks"; }
+for n in 2 4; do
   h5diff ranks1.h5 ranks$n.h5 /mesh /mesh || fail "$n ranks: another mesh"
   for snapshot in 000001 000005 000010; do
     h5diff -d 1e-3 ranks1.h5 ranks$n.h5 /snapshots/$snapshot/pressure /snapshots/$snapshot/pressure || fail "$n ranks: pressure"
@@ -107,22 +112,26 @@ mesh() { # NAME-OF-TOP CORNER-NODE: 3 x 2 cells on 1 m x 1 m
 MESH
 }
 mesh top '0.35 0.55' >good.msh
-run 2 "$POROGRAIN" -case up_terzaghi -up_mesh good.msh -up_permeability 0 -output gmsh.h5 >gmsh.out 2>&1 ||
-  { cat gmsh.out >&2; fail 'a mesh of Gmsh'; }
-expect_match '^up: 12 nodes, 6 elements Q1-Q1 of mesh file good.msh' gmsh.out
+beside simulate gmsh 2 -case up_terzaghi -up_mesh good.msh -up_permeability 0
 
 # ---- what is wrong, by name ----
-# bad PATTERN options...: status 2 and one message, on $ranks; nothing written
-ranks='1'
-bad() {
-  local pattern=$1 n
-  shift
-  for n in $ranks; do
-    expect_error 2 "^porograin: error: .*$pattern" run $n "$POROGRAIN" "$@" -output bad.h5
-    [ "$(grep -c 'porograin: error' expect_error.out)" -eq 1 ] || { cat expect_error.out >&2; fail "not one message: $*"; }
-  done
+# refused RANKS PATTERN options...: in a folder of its own, with all meshes
+refused() {
+  local n=$1 pattern=$2
+  shift 2
+  cp ../*.msh .
+  expect_error 2 "^porograin: error: .*$pattern" run "$n" "$POROGRAIN" "$@" -output bad.h5
+  [ "$(grep -c 'porograin: error' expect_error.out)" -eq 1 ] || { cat expect_error.out >&2; fail "not one message: $*"; }
   if compgen -G 'bad.*' >/dev/null; then fail "written in spite of: $*"; fi
 }
+# bad PATTERN options...: status 2 and one message, on $ranks; nothing written
+tried=0
+bad() {
+  local n
+  tried=$((tried + 1))
+  for n in $ranks; do beside within "bad$tried-$n" refused "$n" "$@"; done
+}
+ranks='1'
 bad "Poisson's ratio is 0.5, it must be > -1 and < 0.5" -case up_footing -up_poisson 0.5
 bad 'option -up_poisson: 0.6 is out of range' -case up_footing -up_poisson 0.6
 bad 'option -up_permeability: -1e-12 m2 is out of range' -case up_footing -up_permeability -1e-12
@@ -162,3 +171,5 @@ sed 's/^2.2 0 8$/1.0 0 8/' good.msh >old.msh
 bad "mesh file 'old.msh': MSH version 1 is not one of 2.2, 4.0, 4.1" -case up_terzaghi -up_mesh old.msh
 sed 's/"left"/left/' good.msh >names.msh
 bad "mesh file 'names.msh': physical name 4 of 5" -case up_terzaghi -up_mesh names.msh
+together
+expect_match '^up: 12 nodes, 6 elements Q1-Q1 of mesh file good.msh' gmsh.out

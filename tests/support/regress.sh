@@ -21,6 +21,57 @@ run() {
   if [ "$n" -eq 1 ]; then "$@"; else "$MPIEXEC" -n "$n" "$@"; fi
 }
 
+# Starts of programs mostly wait; those that do not need each other run side by side, at most so many at once.
+abreast=4
+
+# beside command...: a command or function in the background. What it says is kept until together(), which waits for all
+# and fails when one has failed, was killed, or has called fail(). A script that ends without together() fails, too.
+# Never as a condition (if beside, beside || ...): there bash goes on after what has failed.
+beside_started=0
+beside() {
+  local id
+  beside_started=$((beside_started + 1))
+  printf -v id 'beside.%s.%04d' "$BASHPID" "$beside_started"
+  beside_home=${beside_home:-$PWD}
+  while [ "$(jobs -rp | wc -l)" -ge "$abreast" ]; do wait -n || true; done
+  echo "$*" >"$beside_home/$id.open"
+  trap beside_forgotten EXIT
+  (
+    "$@"
+    rm "$beside_home/$id.open" # not when it has failed
+  ) >"$beside_home/$id.said" 2>&1 </dev/null &
+}
+
+together() {
+  local open bad=0
+  wait
+  trap - EXIT
+  for open in "$beside_home/beside.$BASHPID".*.open; do
+    [ -e "$open" ] || continue
+    bad=$((bad + 1))
+    { echo "-- $(head -c 300 "$open")" && cat "${open%.open}.said"; } >&2
+  done
+  [ "$bad" -eq 0 ] || fail "$bad of $beside_started that ran side by side"
+  cat "$beside_home/beside.$BASHPID".*.said
+  rm "$beside_home/beside.$BASHPID".*
+  beside_started=0
+}
+
+# within FOLDER command...: in a new folder of that name, for beside().
+within() {
+  mkdir "$1"
+  cd "$1"
+  shift
+  "$@"
+}
+
+beside_forgotten() {
+  local status=$?
+  wait
+  [ "$status" -ne 0 ] || fail 'nobody has waited for what ran side by side: together()'
+  exit "$status"
+}
+
 # expect_error STATUS PATTERN command...: the command must end with STATUS and its output match the
 # extended regular expression PATTERN. The output stays in ./expect_error.out.
 expect_error() {
