@@ -6,8 +6,7 @@
 . "$SOURCE_DIR/tests/support/regress.sh"
 
 kills=${KILLS:-5}
-seed=${SEED:-$(($(date +%s) % 32768))}
-RANDOM=$seed
+seed=${SEED:-$(($(date +%s) % 32000))}
 echo "seed $seed (SEED=$seed repeats the sequence)"
 
 panel="-case panel -panel_columns 8 -dt 2e-6 -dem_local_damping 0.7 -end_time 1.2e-3 -output_every 6e-5 -history_every 1e-5 -checkpoint_every 1e-4"
@@ -27,11 +26,20 @@ start() {
 
 # Waits a random part of `seconds`, then kills all ranks of $!.
 kill_sometime() {
-  local n=$1 seconds=$2 pids=$!
+  local n=$1 seconds=$2 leader=$! pids
   sleep "$(awk -v r="$RANDOM" -v s="$seconds" 'BEGIN { printf "%.3f", s*r/32768 }')"
-  [ "$n" = 1 ] || pids=$(pgrep -P "$!" -x porograin || true)
+  pids=$leader
+  [ "$n" = 1 ] || pids=$(pgrep -P "$leader" -x porograin || true)
+  [ -n "$pids" ] || return 0
   # shellcheck disable=SC2086
-  [ -z "$pids" ] || kill -9 $pids 2>/dev/null || true
+  kill -9 $pids 2>/dev/null || return 0
+  # mpiexec of Open MPI 4.1 may wait for a lock of its own for ever when a rank dies while it starts: it gets 20 s
+  for ((k = 0; k < 200; k++)); do
+    jobs -rp | grep -qx "$leader" || return 0
+    sleep 0.1
+  done
+  # shellcheck disable=SC2046
+  kill -9 "$leader" $(pgrep -P "$leader" -x porograin || true) 2>/dev/null || true
 }
 
 # What is left of the result file holds all snapshots that it says it holds.
@@ -54,7 +62,7 @@ look_at_results() {
 chain() {
   local name=$1 n=$2 left=$3 seconds begun from undone=0 middle=0
   shift 3
-  rm -f "$name"*
+  RANDOM=$((seed + n))
   begun=$(date +%s.%N)
   start "$n" "$@" -output "$name-whole.h5" -checkpoint "$name-whole.pgc"
   wait $! || { cat run.log >&2; fail "$name"; }
@@ -86,8 +94,7 @@ chain() {
   echo "$name: $undone kills while results were written, $middle while a checkpoint was"
 }
 
+beside within dry chain dry 1 $((kills / 2)) -fluid none
 # shellcheck disable=SC2086
-{
-  chain dry 1 $((kills / 2)) -fluid none
-  chain ns 2 $((kills - kills / 2)) $water
-}
+beside within ns chain ns 2 $((kills - kills / 2)) $water
+together
