@@ -84,8 +84,25 @@ must -restart 'kept/[a-b].pgc' -end_time 4.1e-4
 expect_match 'continued from kept/b.pgc, step 200' run.log
 printf 'x' | dd of=kept/b.pgc bs=1 seek=3000 conv=notrunc status=none
 must -restart kept
-expect_match "warning: checkpoint 'kept/b.pgc' is passed over: its checksum is wrong" run.log
+expect_match "warning: checkpoint passed over: 'kept/b.pgc': its checksum is wrong" run.log
 expect_match 'continued from kept/a.pgc, step 130' run.log
+# Only damaged ones: each is named with what is wrong; what is no checkpoint, or a write that did not end, is not.
+mkdir damaged
+cp kept/b.pgc kept/results.h5 damaged
+cp middle.pgc damaged/c.pgc.tmp
+head -c 9999 middle.pgc >damaged/half
+: >damaged/empty.pgc.1
+wrong="'damaged/b.pgc': its checksum is wrong: it is damaged"
+# shellcheck disable=SC2086
+{
+  expect_error 4 "cannot restart from 'damaged': no checkpoint there is valid: '" "$POROGRAIN" $panel -restart damaged
+  for part in "$wrong" "'damaged/half': it has no seal" "'damaged/empty.pgc.1': it is empty"; do expect_match "$part" expect_error.out; done
+  ! grep -E 'results|tmp' expect_error.out || fail 'what is no checkpoint is named'
+  expect_error 4 "cannot restart from 'damaged/b\*': no checkpoint there is valid: $wrong" "$POROGRAIN" $panel -restart 'damaged/b*'
+  cp damaged/half damaged/b.pgc.1
+  expect_error 4 "cannot restart from 'damaged/b.pgc': its checksum is wrong: it is damaged; the one before it, 'damaged/b.pgc.1': it has no seal" \
+    "$POROGRAIN" $panel -restart damaged/b.pgc
+}
 mv kept/b.pgc pair
 mv kept/a.pgc pair.1
 must -restart pair
@@ -98,7 +115,7 @@ rm pair.1
 {
   expect_error 4 "cannot restart from 'pair': No such file or directory" "$POROGRAIN" $panel -restart pair
   expect_error 4 "cannot restart from 'kept': there is no checkpoint" "$POROGRAIN" $panel -restart kept
-  expect_error 4 "cannot restart from 'kept/\*': there is no checkpoint" "$POROGRAIN" $panel -restart 'kept/*'
+  expect_error 4 "cannot restart from 'kept/\*': no checkpoint there is valid: 'kept/results.h5': it has no seal" "$POROGRAIN" $panel -restart 'kept/*'
 }
 
 # Another problem, other steps.
