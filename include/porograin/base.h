@@ -106,8 +106,8 @@ PETSC_EXTERN PetscErrorCode PgOptionString(PetscOptionItems *PetscOptionsObject,
 /* An option that has an effect only in company. */
 typedef struct {
   const char *option; /* a name that ends in '*' stands for all that begin so */
-  const char *needs;  /* "-pressure explicit", "-fluid darcy|ns"; "-output": any value; "no -output"; "walls": a fact;
-                         alternatives are separated by " or " */
+  const char *needs;  /* "-pressure explicit", "-fluid darcy|ns"; "-pressure_pc_lag !0|1": any other value; "-output": any
+                         value; "no -output"; "walls": a fact; alternatives are separated by " or " */
   const char *reason; /* "only a drained side has a pressure" */
 } PgOptionRule;
 typedef struct {
@@ -137,6 +137,9 @@ PETSC_EXTERN PetscErrorCode PgOptionsSetBy(const char name[], PgOptionBase by);
    objects print their -help into a collector, so that their names are known too. To be called when all
    objects are set up, before anything is written. Collective. */
 PETSC_EXTERN PetscErrorCode PgOptionsCheckUnused(MPI_Comm comm, PetscErrorCode (*probe)(void *), void *context);
+/* For an option that makes a program do something else than its work: ends in one error when the command line holds
+   options that nobody has read so far. Those of files are let pass. Collective. */
+PETSC_EXTERN PetscErrorCode PgOptionsCheckAlone(MPI_Comm comm, const char name[]);
 /* What is read from here on is read only by runs that are given `needs` ("-fluid darcy"), for messages and help; NULL
    ends that. */
 PETSC_EXTERN PetscErrorCode PgOptionsBelongTo(const char needs[]);

@@ -49,7 +49,8 @@ PETSC_INTERN void PgOptionsSetCollector(PetscErrorCode (*collect)(MPI_Comm));
 
 /* ---- sources.c: where an option was given ---- */
 
-/* Who wins: the larger one. A set of files counts up from PG_LAYER_FILE. */
+/* Who wins: the larger one. Files count up from PG_LAYER_FILE, and one that names others stands on top of them; what nobody
+   has seen coming (a YAML text, a call) counts as given on the command line. */
 enum {
   PG_LAYER_PROGRAM = -1, /* not by the user, nor by a case for him: to be left alone */
   PG_LAYER_PETSCRC,
@@ -89,6 +90,13 @@ PETSC_INTERN PetscBool PgIsOptionName(const char word[]);
 PETSC_INTERN PetscErrorCode PgOptionFilesCheck(int argc, char *const argv[], char message[], size_t length);
 /* The file and line of what PETSc's YAML reader does not understand; PETSc itself says neither. */
 PETSC_INTERN PetscBool PgOptionFilesFindYaml(int argc, char *const argv[], char message[], size_t length);
+
+/* The text of a plain file of options, to be freed with PetscFree(); NULL: it is in YAML, or has a name that PETSc replaces.
+   Collective. */
+PETSC_INTERN PetscErrorCode PgOptionFileRead(const char given[], PetscBool yaml, char **text);
+/* The words of the next line that has any: an option and its value (NULL: none), or alias and two names; false at the end.
+   *rest starts as the text, which is taken apart. */
+PETSC_INTERN PetscBool PgOptionFileNext(char **rest, char *word[3]);
 
 /* ---- help.c ---- */
 

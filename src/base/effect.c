@@ -129,7 +129,7 @@ static PetscErrorCode Decide(Verdict *v, const char name[], const char value[], 
   PetscFunctionReturn(0);
 }
 
-/* One alternative: "walls" (a fact), "no -name", "-name" or "-name one|other". */
+/* One alternative: "walls" (a fact), "no -name", "-name", "-name one|other" or "-name !one|other". */
 static PetscErrorCode Term(const PgOptionRules *rules, char term[], Verdict *v)
 {
   const PetscBool      absent = (PetscBool)!strncmp(term, "no ", 3);
@@ -154,8 +154,11 @@ static PetscErrorCode Term(const PgOptionRules *rules, char term[], Verdict *v)
     PetscFunctionReturn(0);
   }
   PetscCall(PetscOptionsFindPair(NULL, NULL, name, &value, &given));
-  now      = given ? (value ? value : "") : known->initial;
-  v->holds = words ? IsAmong(words, now) : (PetscBool)(given != absent);
+  now = given ? (value ? value : "") : known->initial;
+  if (!words)
+    v->holds = (PetscBool)(given != absent);
+  else
+    v->holds = words[0] == '!' ? (PetscBool)!IsAmong(words + 1, now) : IsAmong(words, now);
   if (v->holds) PetscFunctionReturn(0);
   if (given) PetscCall(Decide(v, name, now, &where));
   if (!given && !PgIsOfUser(name)) v->program = PETSC_TRUE;

@@ -87,10 +87,26 @@ static PetscErrorCode Wrap(MPI_Comm comm, int indent, const char text[])
   PetscFunctionReturn(0);
 }
 
+/* What is allowed, unless the text has said all of it: names of cases, each followed by what it is. */
+static const char *Allowed(const PgKnownOption *o)
+{
+  const char *word = o->allowed;
+  char        shown[128];
+
+  while (*word) {
+    const int length = (int)strcspn(word, ",");
+    (void)snprintf(shown, sizeof shown, " %.*s (", length, word);
+    if (!strstr(o->text, shown)) return o->allowed;
+    word += length;
+    word += strspn(word, ", ");
+  }
+  return "";
+}
+
 /* `with`: whether to say what a run needs to read it. */
 static PetscErrorCode PrintOption(MPI_Comm comm, const PgKnownOption *o, PetscBool with)
 {
-  const char *initial = Default(o), *unit = o->unit;
+  const char *initial = Default(o), *unit = o->unit, *allowed = Allowed(o);
   char        line[2048];
 
   PetscFunctionBeginUser;
@@ -98,8 +114,8 @@ static PetscErrorCode PrintOption(MPI_Comm comm, const PgKnownOption *o, PetscBo
   PetscCall(Wrap(comm, 6, o->text));
   line[0] = '\0';
   if (initial[0]) (void)snprintf(line, sizeof line, "default %s", initial);
-  if (o->allowed[0])
-    (void)snprintf(line + strlen(line), sizeof line - strlen(line), "%sallowed: %s", line[0] ? "; " : "", o->allowed);
+  if (allowed[0])
+    (void)snprintf(line + strlen(line), sizeof line - strlen(line), "%sallowed: %s", line[0] ? "; " : "", allowed);
   if (with && o->needs[0])
     (void)snprintf(line + strlen(line), sizeof line - strlen(line), "%swith %s", line[0] ? "; " : "", o->needs);
   PetscCall(Wrap(comm, 6, line));
@@ -122,7 +138,7 @@ static PetscErrorCode PrintRow(MPI_Comm comm, const PgKnownOption *o, PetscBool 
   PetscCall(PetscPrintf(comm, "| `%s` | ", o->name));
   PetscCall(Cell(comm, o->unit));
   PetscCall(Cell(comm, Default(o)));
-  PetscCall(Cell(comm, o->allowed));
+  PetscCall(Cell(comm, Allowed(o)));
   (void)snprintf(meaning, sizeof meaning, with && o->needs[0] ? "%s (with %s)" : "%s", o->text, o->needs);
   PetscCall(Cell(comm, meaning));
   PetscCall(PetscPrintf(comm, "\n"));

@@ -336,3 +336,45 @@ PetscBool PgOptionFilesFindYaml(int argc, char *const argv[], char message[], si
   }
   return bad;
 }
+
+/* ---- line by line, for whoever wants to know which file an option stands in ---- */
+
+PetscErrorCode PgOptionFileRead(const char given[], PetscBool yaml, char **text)
+{
+  char        file[PETSC_MAX_PATH_LEN];
+  int         length = -1;
+  PetscMPIInt rank;
+  char       *read = NULL;
+
+  PetscFunctionBeginUser;
+  *text = NULL;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank == 0 && !Name(given, yaml, file)) read = ReadAll(file); /* not what PETSc would replace: '$', '~' */
+  if (read && (!strncmp(read, "%YAML ", 6) || !strncmp(read, "---", 3))) {
+    free(read);
+    read = NULL;
+  }
+  if (read) length = (int)strlen(read);
+  PetscCallMPI(MPI_Bcast(&length, 1, MPI_INT, 0, PETSC_COMM_WORLD));
+  if (length >= 0) {
+    PetscCall(PetscMalloc1(length + 1, text));
+    if (rank == 0) (void)snprintf(*text, (size_t)length + 1, "%s", read);
+    PetscCallMPI(MPI_Bcast(*text, length + 1, MPI_CHAR, 0, PETSC_COMM_WORLD));
+  }
+  free(read);
+  PetscFunctionReturn(0);
+}
+
+PetscBool PgOptionFileNext(char **rest, char *word[3])
+{
+  while (*rest && **rest) {
+    char *line = *rest, *end = strchr(line, '\n');
+
+    *rest = end ? end + 1 : NULL;
+    if (end) *end = '\0';
+    line[strcspn(line, "#")] = '\0';
+    for (int k = 0; k < 3; k++) word[k] = NextWord(&line);
+    if (word[0]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}

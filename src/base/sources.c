@@ -100,23 +100,23 @@ static PetscErrorCode AddPetscrc(void)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AddEnvironment(void)
+static PetscErrorCode AddVariable(const char name[], PetscErrorCode (*insert)(PetscOptions, const char[]))
 {
-  const char  *text   = getenv("PETSC_OPTIONS");
+  const char  *text   = getenv(name);
   int          length = text ? (int)strlen(text) + 1 : 0;
   PetscMPIInt  rank;
   PetscOptions options;
   char        *copy;
 
   PetscFunctionBeginUser;
-  PetscCall(Add(PG_LAYER_ENVIRONMENT, "PETSC_OPTIONS", &options));
+  PetscCall(Add(PG_LAYER_ENVIRONMENT, name, &options));
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   PetscCallMPI(MPI_Bcast(&length, 1, MPI_INT, 0, PETSC_COMM_WORLD));
   if (!length) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(length, &copy));
   if (rank == 0) (void)snprintf(copy, (size_t)length, "%s", text);
   PetscCallMPI(MPI_Bcast(copy, length, MPI_CHAR, 0, PETSC_COMM_WORLD)); /* as PETSc does: rank 0's */
-  PetscCall(PetscOptionsInsertString(options, copy));
+  PetscCall((*insert)(options, copy));
   PetscCall(PetscFree(copy));
   PetscFunctionReturn(0);
 }
@@ -142,6 +142,77 @@ static PetscBool TakePrefix(const char word[], const char next[], Prefixes *pref
   return PETSC_FALSE;
 }
 
+/* -name value, with the prefix in force. */
+static PetscErrorCode Set(PetscOptions options, const Prefixes *prefix, const char name[], const char value[])
+{
+  char full[LONGEST + 256];
+
+  PetscFunctionBeginUser;
+  (void)snprintf(full, sizeof full, "-%s%s", prefix->text, Bare(name));
+  PetscCall(PetscOptionsSetValue(options, full, value));
+  PetscFunctionReturn(0);
+}
+
+static PetscBool NamesFile(const char word[], PetscBool *yaml)
+{
+  *yaml = (PetscBool)!strcasecmp(word, "-options_file_yaml");
+  return (PetscBool)(*yaml || !strcasecmp(word, "-options_file"));
+}
+
+/* A file that PETSc reads in one piece. */
+static PetscErrorCode AddWhole(const char file[], PetscBool yaml, const Prefixes *prefix, int layer)
+{
+  char         where[PETSC_MAX_PATH_LEN + 8];
+  PetscOptions options;
+
+  PetscFunctionBeginUser;
+  (void)snprintf(where, sizeof where, "'%s'", file);
+  PetscCall(Add(layer, where, &options));
+  if (prefix->text[0]) PetscCall(PetscOptionsPrefixPush(options, prefix->text));
+  if (yaml)
+    PetscCall(PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, options, file, PETSC_FALSE));
+  else
+    PetscCall(PetscOptionsInsertFile(PETSC_COMM_WORLD, options, file, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/* A file, and those that it names: each is a layer, and what stands in the file itself, be it before or behind such a
+   name, the layer on top of them. */
+static PetscErrorCode AddFile(const char file[], PetscBool yaml, Prefixes *prefix, int depth, int *files)
+{
+  const int    first = sources, open = PG_LAYER_PROGRAM - 1 - depth; /* until the number of its layer is known */
+  char         where[PETSC_MAX_PATH_LEN + 8], *text, *rest, *word[3];
+  PetscOptions now = NULL;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgOptionFileRead(file, yaml, &text));
+  if (!text || depth > DEEPEST) {
+    PetscCall(PetscFree(text));
+    PetscCall(AddWhole(file, yaml, prefix, PG_LAYER_FILE + (*files)++));
+    PetscFunctionReturn(0);
+  }
+  (void)snprintf(where, sizeof where, "'%s'", file);
+  for (rest = text; PgOptionFileNext(&rest, word);) {
+    PetscBool other_yaml;
+    if (TakePrefix(word[0], word[1] ? word[1] : "", prefix)) continue;
+    if (NamesFile(word[0], &other_yaml)) {
+      PetscCall(AddFile(word[1] ? word[1] : "", other_yaml, prefix, depth + 1, files));
+      now = NULL;
+      continue;
+    }
+    if (!now) PetscCall(Add(open, where, &now));
+    if (strcasecmp(word[0], "alias") != 0)
+      PetscCall(Set(now, prefix, word[0], word[1]));
+    else if (word[1] && word[2])
+      PetscCall(PetscOptionsSetAlias(now, word[1], word[2]));
+  }
+  for (int k = first; k < sources; k++)
+    if (source[k].layer == open) source[k].layer = PG_LAYER_FILE + *files;
+  (*files)++;
+  PetscCall(PetscFree(text));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode AddArguments(int argc, char *argv[])
 {
   Prefixes     prefix = {.depth = 0};
@@ -151,23 +222,18 @@ static PetscErrorCode AddArguments(int argc, char *argv[])
   PetscFunctionBeginUser;
   for (int i = 1; i < argc; i++) {
     const char *next = i + 1 < argc ? argv[i + 1] : "";
-    const int   yaml = !strcasecmp(argv[i], "-options_file_yaml");
-    char        where[PETSC_MAX_PATH_LEN + 8], name[LONGEST + 256];
+    PetscBool   yaml;
     if (!PgIsOptionName(argv[i]) || TakePrefix(argv[i], next, &prefix)) continue;
-    if (yaml || !strcasecmp(argv[i], "-options_file")) {
-      PetscOptions options;
-      (void)snprintf(where, sizeof where, "'%s'", next);
-      PetscCall(Add(PG_LAYER_FILE + files++, where, &options));
-      if (yaml)
-        PetscCall(PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, options, next, PETSC_FALSE));
-      else
-        PetscCall(PetscOptionsInsertFile(PETSC_COMM_WORLD, options, next, PETSC_FALSE));
+    if (NamesFile(argv[i], &yaml)) {
+      PetscCall(AddFile(next, yaml, &prefix, 0, &files));
       now = NULL;
       continue;
     }
     if (!now) PetscCall(Add(PG_LAYER_COMMAND_LINE, "the command line", &now));
-    (void)snprintf(name, sizeof name, "-%s%s", prefix.text, Bare(argv[i]));
-    PetscCall(PetscOptionsSetValue(now, name, PgIsOptionName(next) ? NULL : next));
+    if (!strcasecmp(argv[i], "-options_string_yaml"))
+      PetscCall(PetscOptionsInsertStringYAML(now, next));
+    else
+      PetscCall(Set(now, &prefix, argv[i], PgIsOptionName(next) ? NULL : next));
   }
   PetscFunctionReturn(0);
 }
@@ -183,7 +249,8 @@ PetscErrorCode PgSourcesBegin(void)
   PetscCall(PetscGetArgs(&argc, &argv));
   for (int i = 1; i < argc; i++) skip = (PetscBool)(skip || !strcasecmp(argv[i], "-skip_petscrc"));
   if (!skip) PetscCall(AddPetscrc());
-  PetscCall(AddEnvironment());
+  PetscCall(AddVariable("PETSC_OPTIONS", PetscOptionsInsertString));
+  PetscCall(AddVariable("PETSC_OPTIONS_YAML", PetscOptionsInsertStringYAML));
   PetscCall(AddArguments(argc, argv));
   PetscFunctionReturn(0);
 }
@@ -211,6 +278,8 @@ PetscErrorCode PgSourceOf(const char name[], int *layer, const char **where)
     PetscCall(PgSourceOf("-case", layer, where));
     PetscFunctionReturn(0);
   }
+  *layer = PG_LAYER_COMMAND_LINE;
+  if (where) *where = "the command line";
   for (int k = sources - 1; k >= 0 && !has; k--) {
     PetscCall(PetscOptionsHasName(source[k].options, NULL, name, &has));
     if (!has) continue;

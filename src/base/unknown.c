@@ -232,3 +232,27 @@ PetscErrorCode PgOptionsCheckUnused(MPI_Comm comm, PetscErrorCode (*probe)(void 
   PetscCall(PgOptionsCheck(comm, NULL, probe, context));
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode PgOptionsCheckAlone(MPI_Comm comm, const char name[])
+{
+  PetscInt count;
+  char   **other, **value, list[1024] = "";
+
+  PetscFunctionBeginUser;
+  PetscCall(PgSourcesBegin());
+  PetscCall(PetscOptionsLeftGet(NULL, &count, &other, &value));
+  for (PetscInt i = 0; i < count; i++) {
+    const size_t used = strlen(list);
+    char         option[256];
+    int          layer;
+    (void)snprintf(option, sizeof option, "-%s", other[i]);
+    PetscCall(PgSourceOf(option, &layer, NULL));
+    if (layer != PG_LAYER_COMMAND_LINE || BelongsToPetsc(other[i])) continue;
+    (void)snprintf(list + used, sizeof list - used, "%s%s%s%s", used ? ", " : "", option, value[i] ? " " : "",
+                   value[i] ? value[i] : "");
+  }
+  PetscCall(PetscOptionsLeftRestore(NULL, &count, &other, &value));
+  PetscCall(PgSourcesEnd());
+  PgInputCheck(!list[0], comm, "option %s does its work alone and has no use for %s", name, list);
+  PetscFunctionReturn(0);
+}

@@ -187,27 +187,81 @@ static PetscErrorCode DescribeWorst(PgPressure q, char text[], size_t length)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Fail(PgPressure q, const PgPressureStats *stats, PetscReal rtol, PetscReal atol)
+/* What is known to be behind a failure, with a cure; empty: nothing is. */
+static PetscErrorCode Diagnose(PgPressure q, const PgPressureStats *stats, char why[], size_t length)
 {
-  PetscBool   written;
-  const char *note;
-  char        worst[256];
+  PetscInt loose, least;
 
   PetscFunctionBeginUser;
-  PetscCall(DescribeWorst(q, worst, sizeof worst));
+  why[0] = '\0';
+  if (!q->islands && q->symmetric) PetscFunctionReturn(0);
+  PetscCall(PgPressureCountLoose(q, &loose, &least));
+  if (!q->symmetric && loose)
+    PetscCall(PetscSNPrintf(why, length,
+                            "nothing ties %" PetscInt_FMT " discs (disc %" PetscInt_FMT
+                            " is one) to a prescribed pressure, and the corrected Laplacian is not symmetric: which "
+                            "right-hand sides this singular system can bear is not known; use -sph_laplacian paper; ",
+                            loose, least));
+  else if (loose && stats->reason == KSP_DIVERGED_PC_FAILED)
+    PetscCall(PetscSNPrintf(why, length,
+                            "the matrix is singular, as nothing ties %" PetscInt_FMT " discs (disc %" PetscInt_FMT
+                            " is one) to a prescribed pressure, and has no complete factor: use a Krylov method "
+                            "(options/solvers/cg-hypre.opts), MUMPS that looks for null pivots "
+                            "(options/solvers/mumps.opts), or make a side drained; ",
+                            loose, least));
+  PetscFunctionReturn(0);
+}
+
+/* "LU with FACTOR_NUMERIC_ZEROPIVOT", of a preconditioner that could not be built. */
+static PetscErrorCode DescribeFailedFactor(PgPressure q, char text[], size_t length)
+{
+  PC             pc;
+  PCType         type;
+  PCFailedReason reason;
+
+  PetscFunctionBeginUser;
+  PetscCall(KSPGetPC(q->ksp, &pc));
+  PetscCall(PCGetType(pc, &type));
+  PetscCall(PCGetFailedReason(pc, &reason));
+  PetscCall(PetscSNPrintf(text, length, "the preconditioner (%s) could not be built: %s", type,
+                          reason ? PCFailedReasons[reason] : "unknown reason"));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Fail(PgPressure q, const PgPressureStats *stats, PetscReal rtol, PetscReal atol)
+{
+  const PetscBool finite = (PetscBool)!PetscIsInfOrNanReal(stats->residual);
+  PetscBool       written;
+  const char     *note;
+  char            worst[256], why[512];
+
+  PetscFunctionBeginUser;
+  if (stats->reason == KSP_DIVERGED_PC_FAILED)
+    PetscCall(DescribeFailedFactor(q, worst, sizeof worst));
+  else if (finite)
+    PetscCall(DescribeWorst(q, worst, sizeof worst));
+  else
+    PetscCall(PetscSNPrintf(worst, sizeof worst, "the result holds values that are no numbers"));
   PetscCall(PgPressureWriteSystem(q, q->failure, &written));
+  PetscCall(Diagnose(q, stats, why, sizeof why));
   note = written ? "the system was written to" : "the system could not be written to";
   if (stats->reason > 0)
     PgRunError(q->comm,
-               "pressure: the solver reported %s after %" PetscInt_FMT
+               "pressure: %sthe solver reported %s after %" PetscInt_FMT
                " iterations but the true residual is %g (rtol %g, atol %g, ||b|| = %g Pa, residuals relative to it), "
                "%s; %s %s",
-               KSPConvergedReasons[stats->reason], stats->iterations, (double)stats->residual, (double)rtol,
+               why, KSPConvergedReasons[stats->reason], stats->iterations, (double)stats->residual, (double)rtol,
                (double)atol, (double)stats->rhs_norm, worst, note, q->failure);
+  if (!finite)
+    PgRunError(q->comm,
+               "pressure: %sthe solver stopped with %s after %" PetscInt_FMT
+               " iterations (rtol %g, ||b|| = %g Pa), %s; %s %s",
+               why, KSPConvergedReasons[stats->reason], stats->iterations, (double)rtol, (double)stats->rhs_norm, worst,
+               note, q->failure);
   PgRunError(q->comm,
-             "pressure: the solver stopped with %s after %" PetscInt_FMT
+             "pressure: %sthe solver stopped with %s after %" PetscInt_FMT
              " iterations, relative residual %g (rtol %g, ||b|| = %g Pa), %s; %s %s",
-             KSPConvergedReasons[stats->reason], stats->iterations, (double)stats->residual, (double)rtol,
+             why, KSPConvergedReasons[stats->reason], stats->iterations, (double)stats->residual, (double)rtol,
              (double)stats->rhs_norm, worst, note, q->failure);
 }
 

@@ -14,7 +14,7 @@ static PetscInt Root(PetscInt parent[], PetscInt a)
   return a;
 }
 
-static PetscErrorCode Reserve(PgPressure q)
+PetscErrorCode PgPressureReserveTies(PgPressure q)
 {
   PetscFunctionBeginUser;
   if (q->owned <= q->island_capacity) PetscFunctionReturn(0);
@@ -158,7 +158,7 @@ PetscErrorCode PgPressureFindIslands(PgPressure q)
   PetscCall(ReserveIslands(q, q->islands));
   if (!q->symmetric) PetscFunctionReturn(0); /* what blocks of another matrix can bear is not known */
   if (q->tied) PetscFunctionReturn(0);
-  PetscCall(Reserve(q));
+  PetscCall(PgPressureReserveTies(q));
   if (!q->singular) PetscCall(PgPressureTie(q));
   if (q->tied) PetscFunctionReturn(0);
   PetscCall(PgParticlesGetArray(q->particles, q->fixed, &fixed));

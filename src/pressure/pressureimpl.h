@@ -118,7 +118,13 @@ PETSC_INTERN PetscErrorCode PgPressureIslandShift(PgPressure pressure, Vec v, co
 /* For MatNullSpaceSetFunction(). */
 PETSC_INTERN PetscErrorCode PgPressureRemoveIslandMeans(MatNullSpace space, Vec v, void *pressure);
 
+/* Room for the owned discs in island, island_parent and tie. */
+PETSC_INTERN PetscErrorCode PgPressureReserveTies(PgPressure pressure);
+
 /* ties.c */
+/* Free discs that no chain of weights ties to a prescribed pressure, for messages: their number and the least id of one;
+   what is known of islands is spoilt. Collective. */
+PETSC_INTERN PetscErrorCode PgPressureCountLoose(PgPressure pressure, PetscInt *count, PetscInt *least);
 /* Ties what can be tied, and sets tied. Collective. */
 PETSC_INTERN PetscErrorCode PgPressureTie(PgPressure pressure);
 /* Whether the owned discs are still tied with the present weights; lists and numbers of discs are what they were. */

@@ -70,3 +70,26 @@ PetscErrorCode PgPressureTie(PgPressure q)
   q->tied = (PetscBool)(left[0] == 0);
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode PgPressureCountLoose(PgPressure q, PetscInt *count, PetscInt *least)
+{
+  PetscReal      *fixed, *label;
+  const PetscInt *id;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgPressureReserveTies(q));
+  PetscCall(PgPressureTie(q));
+  PetscCall(PgParticlesGetArray(q->particles, q->fixed, &fixed));
+  PetscCall(PgParticlesGetArray(q->particles, q->island_label, &label));
+  PetscCall(PgParticlesGetIds(q->particles, &id));
+  *count = 0;
+  *least = PETSC_MAX_INT;
+  for (PetscInt a = 0; a < q->owned; a++) {
+    if (fixed[a] != 0.0 || label[a] == TIED) continue;
+    (*count)++;
+    *least = PetscMin(*least, id[a]);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 1, MPIU_INT, MPI_SUM, q->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 1, MPIU_INT, MPI_MIN, q->comm));
+  PetscFunctionReturn(0);
+}

@@ -10,6 +10,7 @@
 
 static const char rolling[] = "only that law has a rolling resistance";
 static const char solves[]  = "only -pressure implicit has a solver and its tolerances";
+static const char factors[] = "the matrix of each solve is factored anew";
 
 static const PgOptionRule rules[] = {
     {"-fluid_every", "-fluid darcy|ns", "there is no water to step"},
@@ -33,6 +34,7 @@ static const PgOptionRule rules[] = {
     {"-packing_second_share", "-packing_second_radius", "there is one size of discs only"},
     {"-packing_plate_distance", "-packing_plates", "there are no plates"},
     {"-packing_side_distance", "-fluid darcy|ns", "only water sees these sides"},
+    {"-bed_layer_radius", "-bed_layer_rows", "there is one layer only"},
     {"-packing_porosity", "-fluid darcy|ns", "only water sees a porosity"},
     {"-ns_*", "-fluid ns", "it belongs to the Navier-Stokes scheme"},
     {"-permeability", "-fluid darcy", "the Navier-Stokes scheme has a drag law (-ns_drag) in its place"},
@@ -50,6 +52,13 @@ static const PgOptionRule rules[] = {
     {"-pressure_dump_every", "-pressure_dump", "there is no file for systems"},
     {"-pressure_pc_lag", "-pressure implicit", solves},
     {"-pressure_rebuild_factor", "-pressure implicit", solves},
+    {"-pressure_pc_lag", "-pressure_ksp_type !preonly", factors},
+    {"-pressure_rebuild_factor", "-pressure_ksp_type !preonly", factors},
+    {"-pressure_rebuild_factor", "-pressure_pc_lag !1", "each solve has a preconditioner of its own"},
+    {"-pressure_rebuild_factor", "-pressure_ksp_type !richardson or -pressure_ksp_max_it !1",
+     "iterations do not grow when there is one"},
+    {"-pressure_guess", "-pressure explicit or -pressure_ksp_type !preonly or a free level of pressure",
+     "a factor gives the solution from any start"},
     {"-pressure_error_if_not_converged", "-pressure implicit", solves},
     {"-pressure_ksp_*", "-pressure implicit", solves},
     {"-pressure_pc_*", "-pressure implicit", solves},
@@ -65,6 +74,14 @@ static PetscBool Fact(void *simulation, const char name[])
   PgSimulation sim = (PgSimulation)simulation;
   PetscInt     plates, walls, servos = 0;
 
+  if (!strcmp(name, "a free level of pressure")) { /* the equation leaves it open, and the guess decides */
+    for (int k = 0; k < PG_SIDE_COUNT; k++) {
+      PgBoundary side;
+      if (!sim->pore || PgPoreGetBoundary(sim->pore, (PgSide)k, &side)) return PETSC_TRUE;
+      if (side.kind == PG_BC_DRAINED) return PETSC_FALSE;
+    }
+    return PETSC_TRUE;
+  }
   if (PgDemGetPlateCount(sim->dem, &plates) || PgDemGetWallCount(sim->dem, &walls)) return PETSC_TRUE;
   if (!strcmp(name, "plates")) return (PetscBool)(plates > 0);
   for (PetscInt k = 0; k < walls; k++) {

@@ -69,6 +69,10 @@ for history in solver-*.csv; do
     fail "$history: $(csv_column "$history" pressure_residual | paste -sd ' ')"
 done
 
+# Files of solvers stack: behind any other, in the command or in a file that names both, each gives the solver that it is alone.
+"$SUPPORT/stacked_solvers" "$options"/solvers/*.opts >stacked.log 2>stacked.err || { cat stacked.log stacked.err | tail -n 40 >&2; fail 'files of solvers'; }
+expect_match "^$((count * (count - 1))) pairs, 0 wrong$" stacked.err
+
 # PETSc reads this one only when it solves.
 "$POROGRAIN" -fluid ns -panel_columns 5 -end_time 1e-5 -pressure_ksp_converged_reason >reason.log 2>&1 ||
   { cat reason.log >&2; fail '-pressure_ksp_converged_reason'; }
