@@ -106,9 +106,9 @@ PETSC_EXTERN PetscErrorCode PgOptionString(PetscOptionItems *PetscOptionsObject,
 /* An option that has an effect only in company. */
 typedef struct {
   const char *option; /* a name that ends in '*' stands for all that begin so */
-  const char
-      *needs; /* "-pressure explicit", "-fluid darcy|ns"; "-pressure_pc_lag !0|1": any other value; "-output": any
-                         value; "no -output"; "walls": a fact; alternatives are separated by " or " */
+  /* "-pressure explicit", "-fluid darcy|ns"; "-pressure_pc_lag !0|1": any other value; "-output": any value; "no -output";
+     "walls": a fact; alternatives are separated by " or " */
+  const char *needs;
   const char *reason; /* "only a drained side has a pressure" */
 } PgOptionRule;
 typedef struct {

@@ -55,8 +55,8 @@ PetscErrorCode PgResultRecoverFromOptions(MPI_Comm comm, PetscBool *asked)
                            file, sizeof file, asked));
   PetscOptionsEnd();
   if (!*asked) PetscFunctionReturn(0);
-  PetscCall(
-      PgOptionsCheckAlone(comm, "-recover")); /* with the command of the run that was killed, file of options and all */
+  /* the command of the run that was killed may stand before it, with its file of options */
+  PetscCall(PgOptionsCheckAlone(comm, "-recover"));
   PetscCall(PgResultRecover(comm, file, &undone));
   PetscCall(CountSnapshots(comm, file, &count));
   PetscCall(PetscPrintf(comm, "result file '%s': %s; it holds %" PetscInt_FMT " snapshots\n", file,
