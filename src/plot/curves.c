@@ -44,7 +44,7 @@ static PetscErrorCode WriteLoad(PgPlot plot, const PgPlotSource *source, PetscBo
     for (PetscInt i = 0; i < n; i++)
       (void)fprintf(file, "%.6g %.6g\n", 1e3 * (double)displacement[i], 1e-3 * (double)load[i]);
     PetscCall(PgPlotFolderCloseFile(&plot->folder, name, &file));
-  } else {
+  } else if (!source->mesh) {
     PetscCall(PetscPrintf(plot->comm, "note: %s has no history of a load over a displacement: it is not in load.gp\n",
                           source->file));
   }
@@ -89,7 +89,7 @@ PetscErrorCode PgPlotLoads(PgPlot plot)
 
 /* ---- history ---- */
 
-enum { COLUMNS = 8 };
+enum { COLUMNS = 10, SETTLEMENT = 9 };
 static const struct {
   const char *name, *label; /* of the curve */
   PetscReal   scale;
@@ -99,18 +99,21 @@ static const struct {
                      {"pressure_min", "smallest", 1e-3},
                      {"pressure_mean", "mean", 1e-3},
                      {"pressure_max", "largest", 1e-3},
+                     {"pressure_probe", "probe", 1e-3},
                      {"pressure_iterations", "iterations", 1.0},
-                     {"pressure_residual", "residual", 1.0}};
-enum { PANELS = 5 };
+                     {"pressure_residual", "residual", 1.0},
+                     {"displacement", "displacement", 1e3}};
+enum { PANELS = 6 };
 static const struct {
   PetscInt    first, last; /* columns */
   const char *label;
   PetscBool   logarithmic;
 } panel[PANELS] = {{1, 1, "load [kN/m]", PETSC_FALSE},
                    {2, 2, "kinetic energy [J/m]", PETSC_TRUE},
-                   {3, 5, "pressure [kPa]", PETSC_FALSE},
-                   {6, 6, "pressure iterations", PETSC_FALSE},
-                   {7, 7, "residual |b - Ap|/|b|", PETSC_TRUE}};
+                   {SETTLEMENT, SETTLEMENT, "displacement [mm]", PETSC_FALSE},
+                   {3, 6, "pressure [kPa]", PETSC_FALSE},
+                   {7, 7, "pressure iterations", PETSC_FALSE},
+                   {8, 8, "residual |b - Ap|/|b|", PETSC_TRUE}};
 
 /* *rows is 0 when there is no history; columns that are not there stay NULL. */
 static PetscErrorCode ReadHistory(const PgPlotSource *source, PetscInt *rows, PetscReal *value[])
@@ -121,13 +124,14 @@ static PetscErrorCode ReadHistory(const PgPlotSource *source, PetscInt *rows, Pe
     PetscInt n;
     PetscCall(PgPlotSourceHistory(source, column[c].name, &n, &value[c]));
     if (c == 0) *rows = n;
-    if (n != *rows) PetscCall(PetscFree(value[c]));
+    /* the way of a plate that moves at a given speed is nothing to see; a settlement is */
+    if (n != *rows || (c == SETTLEMENT && !source->mesh)) PetscCall(PetscFree(value[c]));
   }
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode WriteHistory(PgPlot plot, const PgPlotSource *source, PetscInt rows, PetscReal *const value[],
-                                   PetscReal largest[])
+                                   PetscReal smallest[], PetscReal largest[])
 {
   char  name[256];
   FILE *file;
@@ -135,20 +139,26 @@ static PetscErrorCode WriteHistory(PgPlot plot, const PgPlotSource *source, Pets
   PetscFunctionBeginUser;
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-history.dat", source->stem));
   PetscCall(PgPlotFolderCreateFile(&plot->folder, name, &file));
-  (void)fprintf(file,
-                "# time [s]  load [kN/m]  kinetic energy [J/m]  pressure min, mean, max [kPa]  iterations  residual\n");
-  for (PetscInt c = 0; c < COLUMNS; c++) largest[c] = 0.0;
+  (void)fprintf(
+      file,
+      "# time [s]  load [kN/m]  kinetic energy [J/m]  pressure min, mean, max, probe [kPa]  iterations  residual  "
+      "displacement [mm]\n");
+  for (PetscInt c = 0; c < COLUMNS; c++) {
+    smallest[c] = PETSC_MAX_REAL;
+    largest[c]  = 0.0;
+  }
   for (PetscInt i = 0; i < rows; i++, (void)fputc('\n', file))
     for (PetscInt c = 0; c < COLUMNS; c++) {
       const PetscReal v = value[c] ? column[c].scale * value[c][i] : (PetscReal)NAN;
       if (isfinite(v)) largest[c] = PetscMax(largest[c], PetscAbsReal(v));
+      if (isfinite(v) && v > 0.0) smallest[c] = PetscMin(smallest[c], v);
       (void)fprintf(file, isfinite(v) ? "%.7g " : "nan ", (double)v);
     }
   PetscCall(PgPlotFolderCloseFile(&plot->folder, name, &file));
   PetscFunctionReturn(0);
 }
 
-static void DrawPanel(FILE *f, const char stem[], PetscInt p, PetscBool last)
+static void DrawPanel(FILE *f, const char stem[], PetscInt p, const PetscBool there[], PetscBool last)
 {
   (void)fprintf(f, "set ylabel '%s'\nset xlabel '%s'\n%s\n%s\n", panel[p].label, last ? "time [s]" : "",
                 panel[p].logarithmic ? "set logscale y\nset format y '10^{%T}'"
@@ -156,6 +166,7 @@ static void DrawPanel(FILE *f, const char stem[], PetscInt p, PetscBool last)
                 panel[p].first < panel[p].last ? "set key outside top right horizontal" : "unset key");
   (void)fprintf(f, "plot ");
   for (PetscInt c = panel[p].first; c <= panel[p].last; c++) {
+    if (!there[c]) continue;
     /* a residual of 0, before the first solve, has no place on a logarithmic axis */
     (void)fprintf(
         f, panel[p].logarithmic ? "%s'%s-history.dat' using 1:($%d > 0 ? $%d : NaN)" : "%s'%s-history.dat' using 1:%d",
@@ -165,19 +176,32 @@ static void DrawPanel(FILE *f, const char stem[], PetscInt p, PetscBool last)
   (void)fprintf(f, "\n");
 }
 
+/* There is nothing to see in what is zero all the time, nor in one value on a logarithmic axis. */
+static PetscBool HasSomething(PetscInt p, PetscReal *const value[], const PetscReal smallest[],
+                              const PetscReal largest[])
+{
+  for (PetscInt c = panel[p].first; c <= panel[p].last; c++)
+    if (value[c] && largest[c] > (panel[p].logarithmic ? smallest[c] : 0.0)) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 PetscErrorCode PgPlotHistory(PgPlot plot, const PgPlotSource *source)
 {
-  PetscReal *value[COLUMNS], largest[COLUMNS];
+  PetscReal *value[COLUMNS], smallest[COLUMNS], largest[COLUMNS];
+  PetscBool  there[COLUMNS];
   PetscInt   rows, shown[PANELS], panels = 0;
   PgScript   script;
   char       name[256], quoted[300];
 
   PetscFunctionBeginUser;
   PetscCall(ReadHistory(source, &rows, value));
-  if (rows > 1) PetscCall(WriteHistory(plot, source, rows, value, largest));
-  for (PetscInt p = 0; rows > 1 && p < PANELS; p++) /* nothing to see in what is zero all the time */
-    if (value[panel[p].last] && largest[panel[p].last] > 0.0) shown[panels++] = p;
-  for (PetscInt c = 0; c < COLUMNS; c++) PetscCall(PetscFree(value[c]));
+  if (rows > 1) PetscCall(WriteHistory(plot, source, rows, value, smallest, largest));
+  for (PetscInt p = 0; rows > 1 && p < PANELS; p++)
+    if (HasSomething(p, value, smallest, largest)) shown[panels++] = p;
+  for (PetscInt c = 0; c < COLUMNS; c++) {
+    there[c] = (PetscBool)(value[c] != NULL);
+    PetscCall(PetscFree(value[c]));
+  }
   if (!panels) {
     PetscCall(PetscPrintf(plot->comm, "note: %s has no history to draw\n", source->file));
     PetscFunctionReturn(0);
@@ -189,7 +213,8 @@ PetscErrorCode PgPlotHistory(PgPlot plot, const PgPlotSource *source)
                 "set multiplot layout %d,1 title '%s' noenhanced\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3\n"
                 "set tics nomirror\nset lmargin 11\nset rmargin 3\n",
                 (int)panels, PgScriptQuote(source->label, quoted, sizeof quoted));
-  for (PetscInt p = 0; p < panels; p++) DrawPanel(script.file, source->stem, shown[p], (PetscBool)(p + 1 == panels));
+  for (PetscInt p = 0; p < panels; p++)
+    DrawPanel(script.file, source->stem, shown[p], there, (PetscBool)(p + 1 == panels));
   (void)fprintf(script.file, "unset multiplot\n");
   PetscCall(PgScriptEnd(&script));
   PetscFunctionReturn(0);

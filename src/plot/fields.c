@@ -22,7 +22,13 @@ static const PgPlotField fields[] = {
     {"coordination_number", "contacts", "1", "coordination_number", 1, 1.0, First, PETSC_FALSE, PG_PLOT_DISCS},
     {"mean_stress", "mean contact stress, compression > 0", "kPa", "stress", 4, 1e-3, MeanCompression, PETSC_TRUE,
      PG_PLOT_DISCS},
+    {"displacement", "displacement", "mm", "displacement", 2, 1e3, Magnitude, PETSC_FALSE, PG_PLOT_DISCS},
 };
+
+const PgPlotField *PgPlotFieldIn(const PgPlotSource *source, const PgPlotField *field)
+{
+  return source->mesh ? PgPlotMeshFieldFind(field->name) : field;
+}
 
 const PgPlotField *PgPlotFieldAt(PetscInt index)
 {
@@ -42,6 +48,9 @@ PetscErrorCode PgPlotFieldIsThere(const PgPlotSource *source, PetscInt snapshot,
   char path[256];
 
   PetscFunctionBeginUser;
+  *there = PETSC_FALSE;
+  field  = PgPlotFieldIn(source, field);
+  if (!field) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(path, sizeof path, "/snapshots/%06" PetscInt_FMT "/%s", snapshot, field->dataset));
   PetscCall(PgPlotSourceHas(source, path, there));
   PetscFunctionReturn(0);
@@ -95,6 +104,10 @@ PetscErrorCode PgPlotDiscsRead(const PgPlotSource *source, PetscInt snapshot, Pg
   PetscInt   n = -1;
 
   PetscFunctionBeginUser;
+  if (source->mesh) {
+    PetscCall(PgPlotMeshRead(source, snapshot, discs));
+    PetscFunctionReturn(0);
+  }
   PetscCall(PgPlotSourceSnapshot(source, snapshot, "position", 2, &n, &position));
   PetscCall(PgPlotSourceSnapshot(source, snapshot, "radius", 1, &n, &radius));
   discs->count = n;
@@ -129,6 +142,10 @@ PetscErrorCode PgPlotFieldRead(const PgPlotSource *source, PetscInt snapshot, co
   PetscReal *rows;
 
   PetscFunctionBeginUser;
+  if (source->mesh) {
+    PetscCall(PgPlotMeshValues(source, snapshot, field, value));
+    PetscFunctionReturn(0);
+  }
   PetscCall(PgPlotSourceSnapshot(source, snapshot, field->dataset, field->columns, &discs, &rows));
   PetscCall(PetscMalloc1(discs, value));
   for (PetscInt i = 0; i < discs; i++) (*value)[i] = field->scale * field->value(&rows[field->columns * i]);

@@ -93,12 +93,13 @@ PetscErrorCode PgPlotSetFromOptions(PgPlot plot)
   PetscCall(PgOptionReal(PetscOptionsObject, "-plot_time",
                          "draw the snapshot nearest to this time (default: the last one)", "s", 0.0, 1e30, &plot->time,
                          &plot->time_set));
-  PetscCall(
-      PgOptionString(PetscOptionsObject, "-plot_fields",
-                     "fields to draw, separated by commas: effective_strain, volumetric_strain, rotation, porosity, "
-                     "pressure, streamlines, relative_speed (these are the paper's seven), speed, fluid_speed, "
-                     "angular_velocity, coordination_number, mean_stress",
-                     fields, sizeof fields, &plot->fields_set));
+  PetscCall(PgOptionString(
+      PetscOptionsObject, "-plot_fields",
+      "fields to draw, separated by commas: effective_strain, volumetric_strain, rotation, porosity, "
+      "pressure, streamlines, relative_speed (these are the paper's seven), speed, fluid_speed, "
+      "angular_velocity, coordination_number, mean_stress; of a continuum there are pressure, displacement, "
+      "volumetric_strain, relative_speed, mean_stress, speed, by default all",
+      fields, sizeof fields, &plot->fields_set));
   PetscCall(PgOptionString(PetscOptionsObject, "-plot_film",
                            "draw this field of all snapshots as numbered PNG files with one colour scale", film,
                            sizeof film, &film_set));

@@ -40,6 +40,8 @@ typedef struct {
   char       file[PETSC_MAX_PATH_LEN];
   char       label[128], stem[128]; /* for legends, and for file names */
   PetscBool  study, load;           /* load: STEM-load.dat has been written */
+  PetscBool  mesh;                  /* a continuum: cells of a mesh in the place of discs */
+  PetscReal  magnified;             /* mesh: how many times displacements are drawn */
   PetscInt   snapshots, chosen;
   PetscReal *time; /* of the snapshots [s] */
 } PgPlotSource;
@@ -83,7 +85,9 @@ typedef struct {
 enum { PG_PLOT_FIELDS = 24, PG_PLOT_PAPER_FIELDS = 7 };
 PETSC_INTERN const PgPlotField *PgPlotFieldFind(const char name[]);
 PETSC_INTERN const PgPlotField *PgPlotFieldAt(PetscInt index); /* NULL behind the last; first those of the paper */
-/* The discs of a snapshot in millimetres. */
+/* What this name means in this file: on a mesh some fields are others, and most are none (NULL). */
+PETSC_INTERN const PgPlotField *PgPlotFieldIn(const PgPlotSource *source, const PgPlotField *field);
+/* The discs of a snapshot in millimetres; on a mesh the corners of its cells, four by four, with radius 0. */
 typedef struct {
   PetscInt   count;
   PetscReal *x, *y, *r;
@@ -113,6 +117,20 @@ PETSC_INTERN PetscErrorCode PgPlotRangeAdd(PetscInt count, const PetscReal value
 PETSC_INTERN void           PgPlotRangeFinish(PetscBool is_signed, PgPlotRange *range);
 /* A round number near x. */
 PETSC_INTERN PetscReal PgPlotRound(PetscReal x);
+
+/* ---- mesh.c: cells of a continuum, which to the rest are four discs each ---- */
+
+PETSC_INTERN const PgPlotField *PgPlotMeshFieldFind(const char name[]);
+PETSC_INTERN const PgPlotField *PgPlotMeshFieldAt(PetscInt index); /* NULL behind the last */
+/* Whether it is one, and how many times to draw its displacements. */
+PETSC_INTERN PetscErrorCode PgPlotMeshOpen(PgPlotSource *source);
+PETSC_INTERN PetscErrorCode PgPlotMeshRead(const PgPlotSource *source, PetscInt snapshot, PgPlotDiscs *discs);
+PETSC_INTERN PetscErrorCode PgPlotMeshValues(const PgPlotSource *source, PetscInt snapshot, const PgPlotField *field,
+                                             PetscReal **value);
+/* NAME-cells.txt: the cells as gnuplot draws them. */
+PETSC_INTERN PetscErrorCode PgPlotMeshWrite(PgPlot plot, const char name[], const PgPlotDiscs *discs,
+                                            const PetscReal value[]);
+PETSC_INTERN void           PgPlotMeshDraw(FILE *script, const char name[], const char data[], PetscInt column);
 
 /* ---- the object ---- */
 

@@ -25,6 +25,9 @@ static PetscErrorCode When(const PgPlotSource *source, PetscReal time, char text
   PetscCall(PgPlotDisplacement(source, time, &displacement, &known));
   n = strlen(text);
   if (known) PetscCall(PetscSNPrintf(text + n, size - n, ", displacement %.3g mm", 1e3 * (double)displacement));
+  n = strlen(text);
+  if (source->magnified > 1.0)
+    (void)snprintf(text + n, size - n, ", drawn %g times", (double)source->magnified); /* PETSc writes "200." */
   PetscFunctionReturn(0);
 }
 
@@ -70,9 +73,17 @@ static PetscErrorCode WriteFlow(Sheet *s, PetscInt f)
   PetscFunctionReturn(0);
 }
 
+/* The f-th of the fields to draw; without being asked, of a continuum all that there are. NULL behind the last. */
+static const PgPlotField *Wanted(PgPlot plot, const PgPlotSource *source, PetscInt f)
+{
+  if (source->mesh && !plot->fields_set) return PgPlotMeshFieldAt(f);
+  return f < plot->fields ? plot->field[f] : NULL;
+}
+
 static PetscErrorCode SheetCreate(PgPlot plot, const PgPlotSource *source, Sheet *s)
 {
-  char missing[512] = "";
+  const PgPlotField *field;
+  char               missing[512] = "";
 
   PetscFunctionBeginUser;
   PetscCall(PetscMemzero(s, sizeof *s));
@@ -82,17 +93,17 @@ static PetscErrorCode SheetCreate(PgPlot plot, const PgPlotSource *source, Sheet
   PetscCall(PetscStrncpy(s->base, source->stem, sizeof s->base));
   PetscCall(When(source, source->time[s->snapshot], s->when, sizeof s->when));
   PetscCall(PgPlotDiscsRead(source, s->snapshot, &s->discs));
-  for (PetscInt f = 0; f < plot->fields; f++) {
+  for (PetscInt f = 0; (field = Wanted(plot, source, f)) != NULL; f++) {
     PetscBool there;
-    PetscCall(PgPlotFieldIsThere(source, s->snapshot, plot->field[f], &there));
+    PetscCall(PgPlotFieldIsThere(source, s->snapshot, field, &there));
     if (!there) {
       PetscCall(PetscStrlcat(missing, missing[0] ? ", " : "", sizeof missing));
-      PetscCall(PetscStrlcat(missing, plot->field[f]->name, sizeof missing));
+      PetscCall(PetscStrlcat(missing, field->name, sizeof missing));
       continue;
     }
-    s->field[s->fields] = plot->field[f];
-    if (plot->field[f]->drawing == PG_PLOT_DISCS)
-      PetscCall(PgPlotFieldRead(source, s->snapshot, plot->field[f], s->discs.count, &s->value[s->fields]));
+    s->field[s->fields] = field = PgPlotFieldIn(source, field);
+    if (field->drawing == PG_PLOT_DISCS)
+      PetscCall(PgPlotFieldRead(source, s->snapshot, field, s->discs.count, &s->value[s->fields]));
     s->fields++;
   }
   if (missing[0])
@@ -214,7 +225,13 @@ static PetscErrorCode DrawField(PgScript *script, const Sheet *s, PetscInt f)
   } else {
     PetscCall(PgScriptPalette(script, field->is_signed, 0, range));
     LabelBar(file, range, BarStep(s, f));
-    DrawDiscs(file, data, s->column[f], s->discs.count, field->is_signed);
+    if (s->source->mesh) {
+      char name[256];
+      PetscCall(PetscSNPrintf(name, sizeof name, "%s-%s", s->base, field->name));
+      PgPlotMeshDraw(file, name, data, s->column[f]);
+    } else {
+      DrawDiscs(file, data, s->column[f], s->discs.count, field->is_signed);
+    }
   }
   PetscFunctionReturn(0);
 }
@@ -361,6 +378,20 @@ static PetscErrorCode All(Sheet *s)
   PetscFunctionReturn(0);
 }
 
+/* Nothing bursts off a mesh: its extremes are what is to be seen. */
+static PetscReal Clip(PgPlot plot, const PgPlotSource *source) { return source->mesh ? 0.0 : plot->clip; }
+
+static PetscErrorCode WriteCells(PgPlot plot, const char base[], const PgPlotDiscs *discs, const char field[],
+                                 const PetscReal value[])
+{
+  char name[256];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscSNPrintf(name, sizeof name, "%s-%s", base, field));
+  PetscCall(PgPlotMeshWrite(plot, name, discs, value));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgPlotSnapshot(PgPlot plot, const PgPlotSource *source)
 {
   Sheet s;
@@ -375,8 +406,9 @@ PetscErrorCode PgPlotSnapshot(PgPlot plot, const PgPlotSource *source)
       PetscCall(WriteFlow(&s, f));
       continue;
     }
-    PetscCall(PgPlotRangeAdd(s.discs.count, s.value[f], s.field[f]->is_signed, plot->clip, &s.range[f]));
+    PetscCall(PgPlotRangeAdd(s.discs.count, s.value[f], s.field[f]->is_signed, Clip(plot, source), &s.range[f]));
     PgPlotRangeFinish(s.field[f]->is_signed, &s.range[f]);
+    if (source->mesh) PetscCall(WriteCells(plot, s.base, &s.discs, s.field[f]->name, s.value[f]));
   }
   for (PetscInt f = 0; f < s.fields; f++) PetscCall(Single(&s, f));
   if (s.fields > 1) PetscCall(All(&s));
@@ -387,7 +419,8 @@ PetscErrorCode PgPlotSnapshot(PgPlot plot, const PgPlotSource *source)
 /* ---- film ---- */
 
 static PetscErrorCode Frame(PgPlot plot, const PgPlotSource *source, PetscInt frame, const char base[],
-                            PgPlotRange *range, PetscReal low[2], PetscReal high[2], PetscInt *count)
+                            const PgPlotField *field, PgPlotRange *range, PetscReal low[2], PetscReal high[2],
+                            PetscInt *count)
 {
   PgPlotDiscs discs;
   PetscReal  *value;
@@ -396,15 +429,15 @@ static PetscErrorCode Frame(PgPlot plot, const PgPlotSource *source, PetscInt fr
 
   PetscFunctionBeginUser;
   PetscCall(PgPlotDiscsRead(source, frame, &discs));
-  PetscCall(PgPlotFieldRead(source, frame, plot->film, discs.count, &value));
-  PetscCall(PgPlotRangeAdd(discs.count, value, plot->film->is_signed, plot->clip, range));
+  PetscCall(PgPlotFieldRead(source, frame, field, discs.count, &value));
+  PetscCall(PgPlotRangeAdd(discs.count, value, field->is_signed, Clip(plot, source), range));
   for (int c = 0; c < 2; c++) {
     low[c]  = PetscMin(low[c], discs.low[c]);
     high[c] = PetscMax(high[c], discs.high[c]);
   }
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-%06" PetscInt_FMT ".dat", base, frame));
   PetscCall(PgPlotFolderCreateFile(&plot->folder, name, &file));
-  (void)fprintf(file, "# x [mm]  y [mm]  radius [mm]  %s [%s]\n", plot->film->name, plot->film->unit);
+  (void)fprintf(file, "# x [mm]  y [mm]  radius [mm]  %s [%s]\n", field->name, field->unit);
   for (PetscInt i = 0; i < discs.count; i++)
     (void)fprintf(file, "%.6g %.6g %.5g %.5g\n", (double)discs.x[i], (double)discs.y[i], (double)discs.r[i],
                   (double)value[i]);
@@ -412,6 +445,8 @@ static PetscErrorCode Frame(PgPlot plot, const PgPlotSource *source, PetscInt fr
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-%06" PetscInt_FMT ".png", base, frame));
   PetscCall(PgPlotFolderAddPicture(&plot->folder, name));
   *count = discs.count;
+  (void)snprintf(name, sizeof name, "%06lld", (long long)frame);
+  if (source->mesh) PetscCall(WriteCells(plot, base, &discs, name, value));
   PetscCall(PetscFree(value));
   PetscCall(PgPlotDiscsDestroy(&discs));
   PetscFunctionReturn(0);
@@ -419,17 +454,19 @@ static PetscErrorCode Frame(PgPlot plot, const PgPlotSource *source, PetscInt fr
 
 PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
 {
-  PgPlotRange range  = PG_PLOT_NO_RANGE;
-  PetscReal   low[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, high[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL}, pixels[2];
-  PetscInt    count = 0;
-  PetscReal   step, bar;
-  PgScript    script;
-  char        base[200], when[160];
+  const PgPlotField *field  = PgPlotFieldIn(source, plot->film);
+  PgPlotRange        range  = PG_PLOT_NO_RANGE;
+  PetscReal          low[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, high[2] = {PETSC_MIN_REAL, PETSC_MIN_REAL}, pixels[2];
+  PetscInt           count = 0;
+  PetscReal          step, bar;
+  PgScript           script;
+  char               base[200], when[160];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscSNPrintf(base, sizeof base, "%s-film-%s", source->stem, plot->film->name));
-  for (PetscInt i = 0; i < source->snapshots; i++) PetscCall(Frame(plot, source, i, base, &range, low, high, &count));
-  PgPlotRangeFinish(plot->film->is_signed, &range);
+  PetscCall(PetscSNPrintf(base, sizeof base, "%s-film-%s", source->stem, field->name));
+  for (PetscInt i = 0; i < source->snapshots; i++)
+    PetscCall(Frame(plot, source, i, base, field, &range, low, high, &count));
+  PgPlotRangeFinish(field->is_signed, &range);
   step = PgPlotRound((range.high - range.low) / 6.0);
   bar  = 2.0 * PetscCeilReal(4.0 * (PetscReal)PetscMax(8, LabelsOf(&range, step).length));
   /* one scale and one frame for all; an even number of pixels, as video encoders want */
@@ -438,15 +475,21 @@ PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
                           2.0 * PetscFloorReal(0.5 * pixels[1]) + 120.0, PETSC_TRUE, &script));
   Axes(script.file, low, high);
   (void)fprintf(script.file, "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\n");
-  PetscCall(PgScriptPalette(&script, plot->film->is_signed, 0, &range));
+  PetscCall(PgScriptPalette(&script, field->is_signed, 0, &range));
   LabelBar(script.file, &range, step);
   for (PetscInt i = 0; i < source->snapshots; i++) {
     char data[300];
     PetscCall(When(source, source->time[i], when, sizeof when));
     (void)fprintf(script.file, "set output '%s-%06d.png'\nset title \"%s [%s]\\n{/*0.85 %s}\"\n", base, (int)i,
-                  plot->film->title, Unit(plot->film), when);
+                  field->title, Unit(plot->film), when);
     PetscCall(PetscSNPrintf(data, sizeof data, "'%s-%06" PetscInt_FMT ".dat'", base, i));
-    DrawDiscs(script.file, data, 4, count, plot->film->is_signed);
+    if (source->mesh) {
+      char frame[300];
+      PetscCall(PetscSNPrintf(frame, sizeof frame, "%s-%06" PetscInt_FMT, base, i));
+      PgPlotMeshDraw(script.file, frame, data, 4);
+    } else {
+      DrawDiscs(script.file, data, 4, count, field->is_signed);
+    }
   }
   PetscCall(PgScriptEnd(&script));
   PetscFunctionReturn(0);

@@ -94,6 +94,7 @@ PetscErrorCode PgPlotSourceOpen(MPI_Comm comm, const char file[], PgPlotSource *
                restart ? "a checkpoint, not a result" : "not a result of porograin or porograin-study");
   source->study = (PetscBool)!result;
   if (result) PetscCall(ReadTimes(source));
+  if (result) PetscCall(PgPlotMeshOpen(source));
   PetscFunctionReturn(0);
 }
 

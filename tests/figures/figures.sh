@@ -27,16 +27,21 @@ done
 run explicit "$POROGRAIN" -options_file "$SOURCE_DIR/options/panel_case1_ns.opts" -pressure explicit -output explicit.h5
 cp case1_ns.h5 implicit.h5
 
+# A continuum.
+run footing "$POROGRAIN" -options_file "$SOURCE_DIR/options/up_footing.opts" -output footing.h5
+
 # Solvers of the pressure equation, and explicit against implicit.
 run solvers "$POROGRAIN_STUDY" -study_sizes 1249,4999,19999 -study_solvers "$SOURCE_DIR/options/solvers/all.txt" \
   -study_only richardson-jacobi,cg-jacobi,cg-icc,cg-gamg,cg-hypre -study_repeats 1 -study_output solvers
 run sweeps "$POROGRAIN_STUDY" -study explicit -options_file "$SOURCE_DIR/options/panel_case1_ns.opts" -study_output sweeps
 
-rm -rf case1 case2 tour film
+rm -rf case1 case2 tour film continuum
 "$POROGRAIN_PLOT" case1_dry.h5 case1_darcy.h5 case1_ns.h5 solvers.h5 sweeps.h5 -figures case1 -plot_format png -plot_size 0.75
 "$POROGRAIN_PLOT" case2_darcy.h5 case2_ns.h5 -figures case2 -plot_format png -plot_size 0.75
 "$POROGRAIN_PLOT" implicit.h5 explicit.h5 -figures tour -plot_fields pressure -plot_format png -plot_size 0.75
 "$POROGRAIN_PLOT" case1_ns.h5 -figures film -plot_fields porosity -plot_film porosity -plot_format png -plot_size 0.5
+
+"$POROGRAIN_PLOT" footing.h5 -figures continuum -plot_fields pressure,displacement -plot_format png -plot_size 0.75
 
 mkdir -p "$pictures"
 cp case1/load.png "$pictures/case1_load.png"
@@ -47,6 +52,7 @@ cp case1/solvers-{growth,residuals-3}.png "$pictures/"
 cp case1/sweeps-sweeps.png "$pictures/explicit-sweeps.png"
 cp case1/sweeps-cost.png "$pictures/explicit-cost.png"
 cp tour/load.png "$pictures/tour_load.png"
+cp continuum/footing-fields.png "$pictures/"
 frames=(film/case1_ns-film-porosity-*.png)
 cp "${frames[0]}" "$pictures/film-1.png"
 cp "${frames[$((${#frames[@]} / 2))]}" "$pictures/film-2.png"

@@ -53,6 +53,31 @@ awk '/set terminal svg size/ { split($5, size, ",") }
   END { exit bad || n != 4 || length(label) < 7 }' narrow/narrow-fields.gp || fail 'labels of the colour bars of a sheet'
 [ ! -e "early/$wet-rotation.gp" ] || fail '-plot_fields draws more than asked'
 
+# A continuum: cells where they are with their displacement magnified, all fields, the settlement, a film.
+"$POROGRAIN" -options_file "$SOURCE_DIR/options/up_footing.opts" -up_cells 8,8 -output ground.h5 >ground.log 2>&1 ||
+  fail "up_footing: $(tail -n 3 ground.log)"
+"$POROGRAIN_PLOT" ground.h5 -figures ground -plot_gnuplot none -plot_film pressure >ground.out
+! grep -q note ground.out || fail "$(grep note ground.out)"
+for f in pressure displacement volumetric_strain relative_speed mean_stress speed; do
+  [ "$(grep -c '^set object polygon' "ground/ground-$f-cells.txt")" -eq 64 ] || fail "cells of $f"
+  grep -q "^load 'ground-$f-cells.txt'" ground/ground-fields.gp || fail "no $f on the sheet"
+done
+[ -s ground/ground-history.gp ] && [ -s ground/ground-film-pressure-000001-cells.txt ] || fail 'history and film of a continuum'
+grep -q 'displacement \[mm\]' ground/ground-history.gp || fail 'no settlement in the history'
+times=$(sed -n 's/^set title.*drawn \([0-9]*\) times.*/\1/p' ground/ground-pressure.gp)
+[ "$times" -gt 1 ] || fail "magnified $times times"
+# The corner below the footing, at x = 0 and 8 m, lies lower by the settlement; it has the displacement of the history.
+settled=$(csv_column ground.csv displacement | tail -n 1)
+read -r corner displacement < <(awk '!/^#/ && $1 == 0 && ($2 > top || !n++) { top = $2; u = $5 } END { print top, u }' ground/ground-discs.dat)
+# places have six digits, values five
+expect_close "$corner" "$(awk -v n="$times" -v d="$settled" 'BEGIN { print 8e3 - n*1e3*d }')" 0.01
+expect_close "$displacement" "$(awk -v d="$settled" 'BEGIN { print 1e3*d }')" 1e-4
+# Nothing bursts off: the colours go as far as the pressures of the nodes do.
+expect_close "$(sed -n 's/^set cbrange \[.*:\(.*\)\]$/\1/p' ground/ground-pressure.gp)" \
+  "$(csv_column ground.csv pressure_max | tail -n 1 | awk '{ print $1/1e3 }')" 1e-4
+expect_error 2 'there is no field|has no dataset' "$POROGRAIN_PLOT" ground.h5 -figures none -plot_fields porosity -plot_gnuplot none
+nothing none
+
 # A load that goes nowhere has no curve: no empty figure.
 "$POROGRAIN" -case bed_darcy -output bed.h5 >bed.log
 "$POROGRAIN_PLOT" bed.h5 -figures still -plot_fields pressure -plot_gnuplot none >still.out

@@ -17,8 +17,9 @@ enum { POINTS = 10, LEVELS = 3 };
 static const PetscReal end = 4e-4, smallest = 1.25e-7;
 
 #define PANEL                                                                                                          \
-  "-case panel -panel_columns 12 -porosity rae -ns_theta 1 -ns_continuity averaged -sph_gradient corrected "           \
+  "-case panel -panel_columns 12 -porosity rae -sph_gradient corrected "                                               \
   "-sph_laplacian_eta 0.01 -bc_tracking surface -end_time 4e-4 "
+#define NS   "-fluid ns -ns_theta 1 -ns_continuity averaged "
 #define BOTH "-coupling drag_and_pressure "
 
 static PetscBool Once(void)
@@ -105,8 +106,8 @@ static void Darcy(void **state)
 
 static void NavierStokes(void **state)
 {
-  static const char *const both = "-fluid ns " BOTH "-dem_local_damping 0.7";
-  static const char *const drag = "-fluid ns -coupling drag -dem_local_damping 0.7";
+  static const char *const both = NS BOTH "-dem_local_damping 0.7";
+  static const char *const drag = NS "-coupling drag -dem_local_damping 0.7";
   PetscReal                load[2][POINTS], change, most = 0.0;
 
   (void)state;
