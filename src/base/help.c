@@ -138,7 +138,7 @@ static PetscErrorCode PrintRow(MPI_Comm comm, const PgKnownOption *o, PetscBool 
   PetscCall(PetscPrintf(comm, "| `%s` | ", o->name));
   PetscCall(Cell(comm, o->unit));
   PetscCall(Cell(comm, Default(o)));
-  PetscCall(Cell(comm, Allowed(o)));
+  PetscCall(Cell(comm, o->allowed));
   (void)snprintf(meaning, sizeof meaning, with && o->needs[0] ? "%s (with %s)" : "%s", o->text, o->needs);
   PetscCall(Cell(comm, meaning));
   PetscCall(PetscPrintf(comm, "\n"));

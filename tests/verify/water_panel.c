@@ -106,9 +106,9 @@ static void Darcy(void **state)
 
 static void NavierStokes(void **state)
 {
-  static const char *const both = NS BOTH "-dem_local_damping 0.7";
-  static const char *const drag = NS "-coupling drag -dem_local_damping 0.7";
-  PetscReal                load[2][POINTS], change, most = 0.0;
+  static const char *const both           = NS BOTH "-dem_local_damping 0.7";
+  static const char *const           drag = NS "-coupling drag -dem_local_damping 0.7";
+  PetscReal                          load[2][POINTS], change, most = 0.0;
 
   (void)state;
   if (!Once()) skip();
