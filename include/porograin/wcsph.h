@@ -74,6 +74,10 @@ PETSC_EXTERN PetscErrorCode PgWcsphSetDamping(PgWcsph wcsph, PetscReal rate, Pet
 /* Options -wcsph_*. */
 PETSC_EXTERN PetscErrorCode PgWcsphSetFromOptions(PgWcsph wcsph);
 
+/* To be called when everything is set up: refuses options without effect and unknown ones, as PgOptionsCheck(), by the
+   rules of this room; probe as there, may be NULL. */
+PETSC_EXTERN PetscErrorCode PgWcsphCheckOptions(PgWcsph wcsph, PetscErrorCode (*probe)(void *), void *context);
+
 /* Every rank gives the same particles; permanent ids are given in this order. */
 typedef struct {
   PgWcsphKind kind;
@@ -90,7 +94,8 @@ typedef PetscErrorCode (*PgWcsphMotion)(void *context, PetscInt count, const Pet
                                         PetscReal x[], PetscReal v[]);
 PETSC_EXTERN PetscErrorCode PgWcsphSetMotion(PgWcsph wcsph, PgWcsphMotion motion, void *context);
 
-/* Distributes the particles and computes the first forces. Refuses a period narrower than two reaches of the kernel. */
+/* Distributes the particles and computes the first forces. Refuses a period narrower than three
+   reaches of the kernel. */
 PETSC_EXTERN PetscErrorCode PgWcsphSetUp(PgWcsph wcsph);
 PETSC_EXTERN PetscErrorCode PgWcsphView(PgWcsph wcsph, PetscViewer viewer);
 

@@ -10,7 +10,7 @@ static PetscErrorCode ReadOptions(PgLiquid l)
   char title[128];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscSNPrintf(title, sizeof title, "case %s", l->problem->name));
+  PetscCall(PetscSNPrintf(title, sizeof title, "case %s: %s", l->problem->name, l->problem->title));
   PetscOptionsBegin(l->comm, "", title, "");
   PetscCall(PgOptionInt(PetscOptionsObject, "-wcsph_cells", "particles of the liquid from bottom to top", 4, 100000,
                         &l->cells, NULL));
@@ -314,7 +314,7 @@ PetscErrorCode PgLiquidRun(PgLiquid l, const char output[])
   PetscFunctionBeginUser;
   PetscCall(PgStagePush(PG_STAGE_SETUP));
   PetscCall(PgLiquidSetUp(l));
-  PetscCall(PgOptionsCheckUnused(l->comm, NULL, NULL));
+  PetscCall(PgWcsphCheckOptions(l->wcsph, NULL, NULL));
   PetscCall(PgWcsphGetParticles(l->wcsph, &particles));
   if (output[0]) PetscCall(PgOutputCreate(particles, output, COLUMNS, columns, &l->output));
   PetscCall(PgStagePop());

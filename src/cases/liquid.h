@@ -23,7 +23,7 @@ struct PgLiquid_s {
 };
 
 struct PgLiquidProblem_s {
-  const char *name, *defaults;
+  const char *name, *title, *defaults;
   PetscReal   height, speed;
   PetscInt    columns;
   PetscBool   of_pressure; /* what the exact solution is of: pressure, or velocity along x */

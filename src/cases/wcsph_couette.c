@@ -52,7 +52,8 @@ static PetscReal Scale(PgLiquid l) { return PetscAbsReal(l->speed); }
 
 static PetscReal End(PgLiquid l) { return 0.1 * PetscSqr(l->height) * l->rho_0 / l->mu; }
 
-const PgLiquidProblem PgLiquidCouette = {.name        = "wcsph_couette",
+const PgLiquidProblem PgLiquidCouette = {.title       = "a liquid under a moving plate",
+                                         .name        = "wcsph_couette",
                                          .defaults    = "-wcsph_sound_speed 0.02 -neighbors_skin 0.5",
                                          .height      = 0.01,
                                          .speed       = 1e-3,

@@ -76,7 +76,8 @@ static PetscReal Scale(PgLiquid l) { return -l->rho_0 * l->g[1] * l->height; }
 
 static PetscReal End(PgLiquid l) { return 80.0 * l->height / l->c_0; } /* twenty periods of sound */
 
-const PgLiquidProblem PgLiquidHydrostatic = {.name        = "wcsph_hydrostatic",
+const PgLiquidProblem PgLiquidHydrostatic = {.title       = "a liquid at rest",
+                                             .name        = "wcsph_hydrostatic",
                                              .defaults    = "-wcsph_gravity 0,-9.81 -wcsph_sound_speed 40 "
                                                             "-wcsph_viscosity 1 -neighbors_skin 0.5",
                                              .height      = 1.0,

@@ -51,7 +51,8 @@ static PetscReal Scale(PgLiquid l) { return l->speed; }
 
 static PetscReal End(PgLiquid l) { return 0.1 * PetscSqr(l->height) * l->rho_0 / l->mu; }
 
-const PgLiquidProblem PgLiquidPoiseuille = {.name        = "wcsph_poiseuille",
+const PgLiquidProblem PgLiquidPoiseuille = {.title       = "a liquid driven between plates",
+                                            .name        = "wcsph_poiseuille",
                                             .defaults    = "-wcsph_gravity 8e-5,0 -wcsph_sound_speed 0.02 "
                                                            "-neighbors_skin 0.5",
                                             .height      = 0.01,

@@ -76,12 +76,34 @@ PetscErrorCode PgWcsphSetFromOptions(PgWcsph w)
   PetscCall(LiquidOptions(w, PetscOptionsObject));
   PetscCall(SchemeOptions(w, PetscOptionsObject));
   PetscOptionsEnd();
-  PgInputCheck(w->damping == 0.0 || w->damp_end > 0.0, w->comm,
-               "option -wcsph_damping needs -wcsph_damping_end, when it ends");
-  PgInputCheck(w->damp_end == 0.0 || w->damping > 0.0, w->comm,
-               "option -wcsph_damping_end needs -wcsph_damping, a rate to end");
   PetscCall(PgParticlesSetFromOptions(w->particles));
   PetscCall(PgNeighborsSetFromOptions(w->neighbors));
+  PetscFunctionReturn(0);
+}
+
+static const PgOptionRule rules[] = {
+    {"-wcsph_diffusion", "-wcsph_density continuity", "Eq. 26 leaves nothing to diffuse"},
+    {"-wcsph_damping", "-wcsph_damping_end", "it ends at once"},
+    {"-wcsph_damping_end", "-wcsph_damping", "there is no damping to end"},
+    {"-wcsph_contact", "bodies", "nothing meets"},
+    {"-wcsph_contact", "-wcsph_wall adjoint|mirror|extrapolated or -wcsph_density continuity",
+     "walls and bodies meet by their densities"},
+    {"-wcsph_contact_friction", "bodies", "nothing meets"},
+    {"-wcsph_seed", "-wcsph_jitter", "nothing is displaced"},
+};
+
+static PetscBool Fact(void *wcsph, const char name[])
+{
+  (void)name;
+  return (PetscBool)(((PgWcsph)wcsph)->added_bodies > 0);
+}
+
+PetscErrorCode PgWcsphCheckOptions(PgWcsph w, PetscErrorCode (*probe)(void *), void *context)
+{
+  const PgOptionRules all = {sizeof rules / sizeof *rules, rules, Fact, w};
+
+  PetscFunctionBeginUser;
+  PetscCall(PgOptionsCheck(w->comm, &all, probe, context));
   PetscFunctionReturn(0);
 }
 

@@ -36,6 +36,7 @@ PetscErrorCode PgWcsphAddParticles(PgWcsph w, PetscInt count, const PgWcsphParti
   for (PetscInt i = 0; i < count; i++) {
     const PetscInt id = w->added + i;
     PetscCall(Check(w, id, &particle[i]));
+    w->added_bodies += particle[i].kind == PG_WCSPH_BODY;
     if (id % size != rank) continue;
     if (w->kept == w->room) {
       w->room = 2 * w->room + 256;
@@ -126,8 +127,6 @@ static PetscErrorCode RefuseTwins(PgWcsph w)
 PetscErrorCode PgWcsphSetUp(PgWcsph w)
 {
   const PetscReal reach = 2.0 * w->kernel->support * w->smoothing; /* in units of the radius dx/2 */
-  PetscBool       periodic;
-  PetscReal       low, high, skin;
 
   PetscFunctionBeginUser;
   PetscCheck(!w->set_up && w->dx > 0.0, w->comm, PETSC_ERR_ORDER, "PgWcsphSetUp() comes once, after the particles");
@@ -137,16 +136,7 @@ PetscErrorCode PgWcsphSetUp(PgWcsph w)
   PetscCall(FillStore(w));
   PetscCall(PgNeighborsRequestRows(w->neighbors, 0.5 * reach, 0.5 * reach));
   w->set_up = PETSC_TRUE;
-  PetscCall(PgParticlesGetPeriodicX(w->particles, &periodic, &low, &high));
-  PgInputCheck(!periodic || high - low > 2.0 * w->kernel->support * w->h, w->comm,
-               "the period of %g m is too narrow for particles %g m apart: it must be wider than twice the reach of "
-               "the kernel, %g m",
-               (double)(high - low), (double)w->dx, (double)(2.0 * w->kernel->support * w->h));
   PetscCall(PgWcsphForces(w));
-  PetscCall(PgNeighborsGetSkin(w->neighbors, &skin));
-  PgInputCheck(!periodic || high - low > 2.0 * (w->kernel->support * w->h + skin), w->comm,
-               "the period of %g m is too narrow for a skin of %g m (-neighbors_skin)", (double)(high - low),
-               (double)skin);
   PetscCall(RefuseTwins(w));
   PetscFunctionReturn(0);
 }

@@ -100,7 +100,7 @@ static PetscErrorCode FindBodies(PgWcsph w)
 
 static PetscErrorCode UpdateLists(PgWcsph w)
 {
-  const PgField moved[] = {PG_POSITION, PG_VELOCITY};
+  const PgField moved[] = {PG_POSITION, PG_VELOCITY, w->rho}; /* density of the first half */
   PetscBool     need;
 
   PetscFunctionBeginUser;
@@ -109,7 +109,7 @@ static PetscErrorCode UpdateLists(PgWcsph w)
     PetscCall(PgNeighborsBuild(w->neighbors));
     PetscCall(FindBodies(w));
   } else {
-    PetscCall(Halo(w, 2, moved));
+    PetscCall(Halo(w, 3, moved));
   }
   PetscFunctionReturn(0);
 }

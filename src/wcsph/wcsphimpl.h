@@ -35,7 +35,8 @@ struct PgWcsph_s {
   void           *motion_context;
 
   /* particles before SetUp: those of this rank */
-  PetscInt         added, kept, room; /* by all ranks, by this one, capacity */
+  PetscInt         added, added_bodies; /* by all ranks, those of bodies */
+  PetscInt         kept, room;          /* by this one, capacity */
   PgWcsphParticle *particle;
   PetscInt        *particle_id;
   PetscBool        set_up;

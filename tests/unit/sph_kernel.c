@@ -1,5 +1,5 @@
 /* ranks: 1 */
-/* The cubic spline of Eq. 63: moments, derivative, where it ends; never with h = 1. */
+/* The cubic spline of Eq. 63 and the quintic one: moments, derivative, where they end; never with h = 1. */
 #include "ground.h"
 
 static const PetscReal lengths[] = {0.0125, 0.37}; /* h [m]: the panel's, and another */
@@ -69,12 +69,10 @@ static void MomentsInThePlane(void **state)
 }
 
 /* dW/dx = w'(q) x/(r h^3) against central differences of W along both axes. */
-static void GradientAgainstDifferences(void **state)
+static void GradientAgainstDifferences(const PgKernel *kernel)
 {
-  const PgKernel *kernel  = Cubic();
   const PetscReal at[][2] = {{0.21, 0.05}, {-0.6, 0.33}, {0.4, -1.2}, {-1.1, -1.3}, {1.7, 0.8}, {0.02, 1.93}};
 
-  (void)state;
   for (size_t l = 0; l < sizeof lengths / sizeof *lengths; l++) {
     const PetscReal h = lengths[l], d = 1e-5 * h;
 
@@ -118,12 +116,96 @@ static void SupportAndJoints(void **state)
   for (PetscReal q = 0.01; q < 1.99; q += 0.01) assert_true(kernel->w(q) > kernel->w(q + 0.01) && kernel->dw(q) < 0.0);
 }
 
+static void Gradients(void **state)
+{
+  const PgKernel *quintic;
+
+  (void)state;
+  GradientAgainstDifferences(Cubic());
+  CHECK(PgKernelFind("quintic_spline", &quintic));
+  assert_non_null(quintic);
+  GradientAgainstDifferences(quintic);
+}
+
+/* int W over d dimensions with `constant` in front: pieces of degree 7 at most, for which four points of Gauss are
+   exact. */
+static PetscReal Integral(const PgKernel *kernel, int d, PetscReal constant)
+{
+  const PetscReal point[4]  = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
+  const PetscReal weight[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+  PetscReal       sum       = 0.0;
+
+  for (int piece = 0; piece < (int)kernel->support; piece++)
+    for (int k = 0; k < 4; k++) {
+      const PetscReal q     = piece + 0.5 * (1.0 + point[k]);
+      const PetscReal shell = d == 1 ? 2.0 : d == 2 ? 2.0 * PETSC_PI * q : 4.0 * PETSC_PI * q * q;
+      sum += 0.5 * weight[k] * shell * kernel->w(q) / kernel->constant[1] * constant;
+    }
+  return sum;
+}
+
+/* Both kernels in one, two and three dimensions. */
+static void Constants(void **state)
+{
+  static const char *const name[] = {"cubic_spline", "quintic_spline"};
+
+  (void)state;
+  for (int n = 0; n < 2; n++) {
+    const PgKernel *kernel;
+    CHECK(PgKernelFind(name[n], &kernel));
+    assert_non_null(kernel);
+    /* twelve terms of order 1, and nodes of 16 digits */
+    for (int d = 1; d <= 3; d++) NEAR(Integral(kernel, d, kernel->constant[d - 1]), 1.0, 1e-13);
+  }
+}
+
+/* What Tak, Park & Park (2013) print below their Eqs. 36 and 37: the cubic one is right, in their form of it; the quintic
+   one is right in two dimensions only. The test fails where what is printed would do. */
+static void PrintedConstants(void **state)
+{
+  const PgKernel *cubic = Cubic(), *quintic;
+  /* their cubic is 2/3 of ours with constants 1, 15/(7 pi), 3/(2 pi) */
+  const PetscReal form = 2.0 / 3.0, pi = PETSC_PI;
+
+  (void)state;
+  CHECK(PgKernelFind("quintic_spline", &quintic));
+  NEAR(Integral(cubic, 1, form), 1.0, 1e-13);
+  NEAR(Integral(cubic, 2, form * 15.0 / (7.0 * pi)), 1.0, 1e-13);
+  NEAR(Integral(cubic, 3, form * 3.0 / (2.0 * pi)), 1.0, 1e-13);
+  NEAR(Integral(quintic, 1, 120.0), 14400.0, 1e-9);
+  NEAR(Integral(quintic, 2, 7.0 / (478.0 * pi)), 1.0, 1e-13);
+  NEAR(Integral(quintic, 3, 3.0 / (359.0 * pi)), 360.0 / 359.0, 1e-13);
+  assert_true(fabs((double)Integral(quintic, 1, 120.0) - 1.0) > 1e-9);
+  assert_true(fabs((double)Integral(quintic, 3, 3.0 / (359.0 * pi)) - 1.0) > 1e-9);
+}
+
+static void QuinticJoints(void **state)
+{
+  const PgKernel *kernel;
+  const PetscReal e = 1e-9;
+
+  (void)state;
+  CHECK(PgKernelFind("quintic_spline", &kernel));
+  assert_true(kernel->support == 3.0);
+  assert_true(kernel->w(3.0) == 0.0 && kernel->dw(3.0) == 0.0 && kernel->w(5.1) == 0.0 && kernel->dw(5.1) == 0.0);
+  /* w is 66, 26 and 1 times its constant at 0, 1 and 2 */
+  NEAR(kernel->w(0.0) / kernel->constant[1], 66.0, 1e-12);
+  NEAR(kernel->w(1.0) / kernel->constant[1], 26.0, 1e-12);
+  NEAR(kernel->w(2.0) / kernel->constant[1], 1.0, 1e-13);
+  /* 5 (81 - 96 + 15) = 0: flat in the middle, to rounding */
+  NEAR(kernel->dw(0.0), 0.0, 1e-12);
+  for (int q = 1; q < 3; q++) {
+    /* w' and w'' are bounded by 0.3 */
+    NEAR(kernel->w(q - e), kernel->w(q + e), e);
+    NEAR(kernel->dw(q - e), kernel->dw(q + e), e);
+  }
+  for (PetscReal q = 0.01; q < 2.95; q += 0.01) assert_true(kernel->dw(q) < 0.0);
+}
+
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(Found),
-    cmocka_unit_test(ZerothMomentExactly),
-    cmocka_unit_test(MomentsInThePlane),
-    cmocka_unit_test(GradientAgainstDifferences),
-    cmocka_unit_test(SupportAndJoints),
+    cmocka_unit_test(Found),         cmocka_unit_test(ZerothMomentExactly), cmocka_unit_test(MomentsInThePlane),
+    cmocka_unit_test(Gradients),     cmocka_unit_test(Constants),           cmocka_unit_test(PrintedConstants),
+    cmocka_unit_test(QuinticJoints), cmocka_unit_test(SupportAndJoints),
 };
 
 GROUND_MAIN(tests, PETSC_TRUE)
