@@ -178,6 +178,22 @@ PETSC_EXTERN PetscErrorCode PgFemGetPlate(PgFem fem, const char boundary[], Pets
 /* Creates FILE.h5, FILE.xmf and FILE.csv with the mesh and these columns of history. Collective. */
 PETSC_EXTERN PetscErrorCode PgFemCreateOutput(PgFem fem, const char file[], PetscInt columns, const PgColumn column[],
                                               PgOutput *output);
+/* The same for a run that goes on: from what it had written so far, see PgOutputContinue(); NULL: from the start. */
+typedef struct {
+  char        run[PG_RUN_NAME];
+  PetscInt    rows, snapshots;
+  const char *from;
+} PgFemResults;
+PETSC_EXTERN PetscErrorCode PgFemContinueOutput(PgFem fem, const char file[], PetscInt columns, const PgColumn column[],
+                                                const PgFemResults *before, PgOutput *output);
 /* Adds a snapshot: displacement, velocity, pressure of the nodes; effective_stress, flux, volumetric_strain of the
    cells, as means. Everything is in the order of the whole mesh, whatever the number of ranks. Collective. */
 PETSC_EXTERN PetscErrorCode PgFemSnapshot(PgFem fem, PgOutput output);
+
+/* ---- checkpoints ---- */
+
+/* Adds all that later steps depend on, as values of the whole mesh, and the mesh itself, which must be the same; on any
+   number of ranks. Addresses last until the object ends, values until the next step. After PgFemSetUp(). Collective. */
+PETSC_EXTERN PetscErrorCode PgFemAddState(PgFem fem, PgState state);
+/* Goes on from what has been read to the addresses of PgFemAddState(). */
+PETSC_EXTERN PetscErrorCode PgFemTakeState(PgFem fem);

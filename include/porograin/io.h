@@ -73,6 +73,10 @@ typedef struct {
    `grid` are borrowed until it returns. PgOutputHistory(), Flush, Finish and Destroy work as with discs. Collective. */
 PETSC_EXTERN PetscErrorCode PgOutputCreateGrid(MPI_Comm comm, const char file[], const PgGrid *grid, PetscInt columns,
                                                const PgColumn column[], PgOutput *output);
+/* As PgOutputContinue(). Collective. */
+PETSC_EXTERN PetscErrorCode PgOutputContinueGrid(MPI_Comm comm, const char file[], const PgGrid *grid, PetscInt columns,
+                                                 const PgColumn column[], const char run[], PetscInt rows,
+                                                 PetscInt snapshots, const char from[], PgOutput *output);
 /* Adds /snapshots/NNNNNN with attribute time and these fields. Collective. */
 PETSC_EXTERN PetscErrorCode PgOutputGridSnapshot(PgOutput output, PetscReal time, PetscInt fields,
                                                  const PgGridField field[]);
@@ -91,6 +95,8 @@ PETSC_EXTERN PetscErrorCode PgCheckpointCheckPlace(MPI_Comm comm, const char fil
 /* Writes the state and all fields and variable-length data flagged PG_FIELD_RESTART; the former FILE becomes
    FILE.1. FILE is replaced only by one that is complete, sealed with a checksum, and on the disk. Collective. */
 PETSC_EXTERN PetscErrorCode PgCheckpointWrite(PgParticles particles, PgState state, const char file[]);
+/* The same of a run without discs, which is all in its state. Collective. */
+PETSC_EXTERN PetscErrorCode PgCheckpointWriteState(MPI_Comm comm, PgState state, const char file[]);
 /* Seals a file made by hand, so that it is read: for tests, and for programs that write checkpoints. For one rank. */
 PETSC_EXTERN PetscErrorCode PgCheckpointSeal(const char file[]);
 

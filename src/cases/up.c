@@ -39,6 +39,7 @@ static PetscErrorCode RunOptions(PgUp up)
                          0.0, 1e15, &run->every, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-history_every", "time between history rows; default every step", "s",
                          0.0, 1e15, &run->history, NULL));
+  PetscCall(PgUpRestartOptions(up, PetscOptionsObject));
   PetscOptionsEnd();
   PetscFunctionReturn(0);
 }
@@ -211,15 +212,12 @@ static const PgColumn columns[COLUMNS] = {
     {"pressure_residual", "1", "residual of the solve, recomputed, over its right-hand side"},
 };
 
-/* Parts of a step that are not worth a step, or a matrix, of their own: the end may be a multiple but for rounding. */
-#define UNEVEN 1e-6
-
 /* The last step is cut to the end of the run. */
 static PetscReal StepSize(const PgUpRunSettings *run, PetscInt step)
 {
   const PetscReal left = run->end - (PetscReal)(step - 1) * run->dt;
 
-  return step == run->steps && left < (1.0 - UNEVEN) * run->dt ? left : run->dt;
+  return step == run->steps && left < (1.0 - PG_UP_UNEVEN) * run->dt ? left : run->dt;
 }
 
 static PetscErrorCode ChooseSteps(PgUp up, PgUpRunSettings *run)
@@ -229,7 +227,7 @@ static PetscErrorCode ChooseSteps(PgUp up, PgUpRunSettings *run)
   if (run->end <= 0.0) run->end = up->end;
   PgInputCheck(run->end / run->dt < 1e8, up->comm, "%g steps to t = %g s with -dt %g s are too many",
                (double)(run->end / run->dt), (double)run->end, (double)run->dt);
-  run->steps = PetscMax(1, (PetscInt)PetscCeilReal(run->end / run->dt - UNEVEN));
+  run->steps = PetscMax(1, (PetscInt)PetscCeilReal(run->end / run->dt - PG_UP_UNEVEN));
   if (run->every < 0.0) run->every = run->dt * (PetscReal)PetscMax(1, run->steps / 10);
   if (run->history < 0.0) run->history = run->dt;
   PetscFunctionReturn(0);
@@ -295,15 +293,38 @@ static PetscErrorCode Observe(PgUp up, PgUpRunSettings *run, PetscInt step)
 
 static PetscErrorCode TimeLoop(PgUp up, PgUpRunSettings *run)
 {
+  PetscInt begun;
+
   PetscFunctionBeginUser;
-  PetscCall(Observe(up, run, 0));
-  for (PetscInt step = 1; step <= run->steps; step++) {
+  PetscCall(PgFemGetTime(up->fem, &begun, NULL));
+  if (!run->restart[0]) PetscCall(Observe(up, run, 0));
+  for (PetscInt step = begun + 1; step <= run->steps; step++) {
     PetscCall(PgFemStep(up->fem, StepSize(run, step)));
     PetscCall(Observe(up, run, step));
+    PetscCall(PgUpCheckpoint(up, step));
   }
   if (run->output) {
     PetscCall(PgOutputFinish(run->output));
   }
+  PetscFunctionReturn(0);
+}
+
+/* Everything that can be refused, before anything is written. */
+static PetscErrorCode Begin(PgUp up, PgUpRunSettings *run, const char output[])
+{
+  PetscInt begun;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgUpSetUp(up));
+  PetscCall(ChooseSteps(up, run));
+  if (run->restart[0]) PetscCall(PgUpRestart(up));
+  PetscCall(PgFemGetTime(up->fem, &begun, NULL));
+  PetscCall(PgFemSetUpSolver(up->fem, StepSize(run, PetscMin(begun + 1, run->steps))));
+  PetscCall(PgOptionsCheckUnused(up->comm, PgFemProbeOptions, up->fem));
+  PetscCall(PgUpCheckPlaces(up, output));
+  if (output[0])
+    PetscCall(
+        PgFemContinueOutput(up->fem, output, COLUMNS, columns, run->restart[0] ? &run->before : NULL, &run->output));
   PetscFunctionReturn(0);
 }
 
@@ -314,11 +335,7 @@ PetscErrorCode PgUpRun(PgUp up, const char output[])
 
   PetscFunctionBeginUser;
   PetscCall(PgStagePush(PG_STAGE_SETUP));
-  PetscCall(PgUpSetUp(up));
-  PetscCall(ChooseSteps(up, run));
-  PetscCall(PgFemSetUpSolver(up->fem, StepSize(run, 1)));
-  PetscCall(PgOptionsCheckUnused(up->comm, PgFemProbeOptions, up->fem));
-  if (output[0]) PetscCall(PgFemCreateOutput(up->fem, output, COLUMNS, columns, &run->output));
+  PetscCall(Begin(up, run, output));
   PetscCall(PgStagePop());
   PetscCall(PgFemView(up->fem, PETSC_VIEWER_STDOUT_(up->comm)));
   err = TimeLoop(up, run);

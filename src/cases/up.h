@@ -11,6 +11,10 @@ typedef struct {
   PetscReal every, history; /* between snapshots, between rows [s], < 0: default */
   PetscInt  steps;
   PgOutput  output; /* NULL: none */
+  /* checkpoints */
+  char         checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
+  PetscReal    checkpoint_every;                                            /* [s], < 0: default */
+  PgFemResults before; /* results of the run that goes on, or at the last checkpoint */
 } PgUpRunSettings;
 
 struct PgUp_s {
@@ -40,6 +44,16 @@ struct PgUpProblem_s {
 
 PETSC_INTERN const PgUpProblem PgUpTerzaghi, PgUpMandel, PgUpFooting;
 PETSC_INTERN PetscErrorCode    PgUpCreateProblem(MPI_Comm comm, const PgUpProblem *problem, PgUp *up);
+
+/* The length of the last step may differ from that of the others by this part of it, for rounding. */
+#define PG_UP_UNEVEN 1e-6
+
+/* up_restart.c: checkpoints of a run whose steps have been chosen. All collective. */
+PETSC_INTERN PetscErrorCode PgUpRestartOptions(PgUp up, PetscOptionItems *PetscOptionsObject);
+PETSC_INTERN PetscErrorCode PgUpCheckPlaces(PgUp up, const char output[]);
+PETSC_INTERN PetscErrorCode PgUpRestart(PgUp up);
+/* Writes one when it is due after this step. */
+PETSC_INTERN PetscErrorCode PgUpCheckpoint(PgUp up, PetscInt step);
 
 /* Displacement along y of the node nearest to x, downward; the same on all ranks. Collective. */
 PETSC_INTERN PetscErrorCode PgUpSettlementAt(PgUp up, const PetscReal x[2], PetscReal *settlement);

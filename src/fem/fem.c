@@ -30,6 +30,7 @@ PetscErrorCode PgFemDestroy(PgFem *fem)
 {
   PetscFunctionBeginUser;
   if (!*fem) PetscFunctionReturn(0);
+  PetscCall(PgFemKeptDestroy(*fem));
   PetscCall(PgFemOutputDestroy(*fem));
   PetscCall(PgFemSystemDestroy(*fem));
   PetscCall(PgFemDofsDestroy(*fem));

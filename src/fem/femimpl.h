@@ -76,6 +76,8 @@ typedef struct {
   PetscReal scale; /* of the pressure: unknown is p/scale [Pa] */
 } PgFemCoefficients;
 
+typedef struct PgFemKept_s *PgFemKept;
+
 struct PgFem_s {
   MPI_Comm    comm;
   PetscMPIInt rank, ranks;
@@ -144,6 +146,8 @@ struct PgFem_s {
   /* results: from nodes and cells of this rank to its share of the file's order */
   PetscSF  node_sf, cell_sf;
   PetscInt node_start, node_count, cell_start, cell_count;
+
+  PgFemKept kept; /* for checkpoints; NULL: none so far */
 };
 
 /* mesh.c */
@@ -208,6 +212,9 @@ PETSC_INTERN PetscErrorCode PgFemSystemDestroy(PgFem fem);
 
 /* output.c */
 PETSC_INTERN PetscErrorCode PgFemOutputDestroy(PgFem fem);
+
+/* state.c */
+PETSC_INTERN PetscErrorCode PgFemKeptDestroy(PgFem fem);
 
 /* solver.c */
 PETSC_INTERN PetscErrorCode PgFemSolverBuild(PgFem fem);

@@ -58,8 +58,8 @@ static PetscErrorCode Order(PetscSF sf, MPI_Datatype unit, PetscInt components, 
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgFemCreateOutput(PgFem fem, const char file[], PetscInt columns, const PgColumn column[],
-                                 PgOutput *output)
+PetscErrorCode PgFemContinueOutput(PgFem fem, const char file[], PetscInt columns, const PgColumn column[],
+                                   const PgFemResults *before, PgOutput *output)
 {
   PetscReal     *position;
   PetscInt      *corner, *mine;
@@ -74,9 +74,21 @@ PetscErrorCode PgFemCreateOutput(PgFem fem, const char file[], PetscInt columns,
   PetscCall(Order(fem->cell_sf, MPIU_INT, 4, mine, corner));
   grid = (PgGrid){fem->all_nodes,  fem->node_start, fem->node_count, fem->all_cells,
                   fem->cell_start, fem->cell_count, position,        corner};
-  err  = PgOutputCreateGrid(fem->comm, file, &grid, columns, column, output);
+  if (before)
+    err = PgOutputContinueGrid(fem->comm, file, &grid, columns, column, before->run, before->rows, before->snapshots,
+                               before->from, output);
+  else
+    err = PgOutputCreateGrid(fem->comm, file, &grid, columns, column, output);
   PetscCall(PetscFree3(position, corner, mine));
   PetscFunctionReturn(err);
+}
+
+PetscErrorCode PgFemCreateOutput(PgFem fem, const char file[], PetscInt columns, const PgColumn column[],
+                                 PgOutput *output)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgFemContinueOutput(fem, file, columns, column, NULL, output));
+  PetscFunctionReturn(0);
 }
 
 enum { STRESS = 4, FLUX = 2, MEANS = STRESS + FLUX + 1 };

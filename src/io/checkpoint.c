@@ -57,11 +57,11 @@ PetscErrorCode PgCheckpointCheckPlace(MPI_Comm comm, const char file[])
 static PetscErrorCode WriteHeader(PgParticles particles, PgHdf *hdf)
 {
   PetscMPIInt size;
-  PetscInt    discs;
+  PetscInt    discs = 0;
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(hdf->comm, &size));
-  PetscCall(PgParticlesGetSizes(particles, NULL, NULL, &discs));
+  if (particles) PetscCall(PgParticlesGetSizes(particles, NULL, NULL, &discs));
   PetscCall(PgHdfText(hdf, "/", "format", PG_CHECKPOINT_FORMAT));
   PetscCall(PgHdfInt(hdf, "/", "format_version", PG_CHECKPOINT_VERSION));
   PetscCall(PgHdfText(hdf, "/", "program_version", PG_VERSION));
@@ -229,12 +229,11 @@ static PetscErrorCode WriteAllRagged(PgParticles particles, PgHdf *hdf)
 
 /* ---- the file ---- */
 
-/* Upper bound of the size of the file [bytes]. */
-static PetscErrorCode FileSize(PgParticles particles, PgState state, PetscReal *bytes)
+/* Upper bound of the size of what discs have in the file [bytes]. */
+static PetscErrorCode SizeOfDiscs(PgParticles particles, PetscReal *bytes)
 {
   const PgFieldInfo *info;
-  const PgStateItem *item;
-  PetscInt           discs, owned, fields, items, ragged, components;
+  PetscInt           discs, owned, fields, ragged, components;
   PetscReal          records = 0;
   unsigned           flags;
 
@@ -248,25 +247,38 @@ static PetscErrorCode FileSize(PgParticles particles, PgState state, PetscReal *
     records += (PetscReal)offset[owned] * (PetscReal)components;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &records, 1, MPIU_REAL, MPIU_SUM, PgParticlesComm(particles)));
-  *bytes = FILE_BYTES + (PetscReal)ragged * (2 * DATASET_BYTES + 8 * (PetscReal)discs) + 8 * records;
+  *bytes = (PetscReal)ragged * (2 * DATASET_BYTES + 8 * (PetscReal)discs) + 8 * records;
   PetscCall(PgParticlesGetFieldCount(particles, &fields));
   for (PgField f = 0; f < fields; f++) {
     PetscCall(PgParticlesGetFieldInfo(particles, f, &info));
     *bytes += DATASET_BYTES + 8 * (PetscReal)info->components * (PetscReal)discs;
   }
+  PetscFunctionReturn(0);
+}
+
+/* The same of the file. */
+static PetscErrorCode FileSize(PgParticles particles, PgState state, PetscReal *bytes)
+{
+  const PgStateItem *item;
+  PetscInt           items;
+
+  PetscFunctionBeginUser;
+  *bytes = 0.0;
+  if (particles) PetscCall(SizeOfDiscs(particles, bytes));
+  *bytes += FILE_BYTES;
   PetscCall(PgStateGetItems(state, &items, &item));
   for (PetscInt k = 0; k < items; k++) *bytes += DATASET_BYTES + 8 * (PetscReal)item[k].count;
   PetscFunctionReturn(0);
 }
 
 /* Creates the file and makes sure that all of it will fit on the device, before anything large is written. */
-static PetscErrorCode CreateWithRoom(PgParticles particles, PgState state, const char temporary[], PgHdf *hdf)
+static PetscErrorCode CreateWithRoom(MPI_Comm comm, PgParticles particles, PgState state, const char temporary[],
+                                     PgHdf *hdf)
 {
-  const MPI_Comm comm = PgParticlesComm(particles);
-  PetscMPIInt    rank;
-  PetscReal      bytes = 0;
-  PgHdf          empty;
-  char           what[96];
+  PetscMPIInt rank;
+  PetscReal   bytes = 0;
+  PgHdf       empty;
+  char        what[96];
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
@@ -298,21 +310,20 @@ static const char *Install(const char temporary[], const char file[], const char
   return PgSyncDirectory(file);
 }
 
-static PetscErrorCode Write(PgParticles particles, PgState state, const char temporary[], const char file[],
-                            const char before[])
+static PetscErrorCode Write(MPI_Comm comm, PgParticles particles, PgState state, const char temporary[],
+                            const char file[], const char before[])
 {
-  const MPI_Comm comm   = PgParticlesComm(particles);
-  const char    *reason = NULL;
-  PetscMPIInt    rank;
-  PgHdf          hdf;
+  const char *reason = NULL;
+  PetscMPIInt rank;
+  PgHdf       hdf;
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(CreateWithRoom(particles, state, temporary, &hdf));
+  PetscCall(CreateWithRoom(comm, particles, state, temporary, &hdf));
   PetscCall(WriteHeader(particles, &hdf));
   PetscCall(WriteState(state, &hdf));
-  PetscCall(WriteFields(particles, &hdf));
-  PetscCall(WriteAllRagged(particles, &hdf));
+  if (particles) PetscCall(WriteFields(particles, &hdf));
+  if (particles) PetscCall(WriteAllRagged(particles, &hdf));
   PetscCall(PgHdfFlush(&hdf));
   PetscCall(PgHdfClose(&hdf));
   if (rank == 0) reason = PgSealFile(temporary, PG_SEAL_CHECKPOINT);
@@ -322,9 +333,8 @@ static PetscErrorCode Write(PgParticles particles, PgState state, const char tem
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgCheckpointWrite(PgParticles particles, PgState state, const char file[])
+static PetscErrorCode WriteAndReplace(MPI_Comm comm, PgParticles particles, PgState state, const char file[])
 {
-  const MPI_Comm comm = PgParticlesComm(particles);
   char           temporary[NAME_BYTES], before[NAME_BYTES];
   PetscMPIInt    rank;
   PetscErrorCode err;
@@ -333,9 +343,23 @@ PetscErrorCode PgCheckpointWrite(PgParticles particles, PgState state, const cha
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(PgCheckpointName(comm, file, ".tmp", temporary, sizeof temporary));
   PetscCall(PgCheckpointName(comm, file, ".1", before, sizeof before));
-  err = Write(particles, state, temporary, file, before);
+  err = Write(comm, particles, state, temporary, file, before);
   if (err && rank == 0) (void)unlink(temporary);
   PetscFunctionReturn(err);
+}
+
+PetscErrorCode PgCheckpointWrite(PgParticles particles, PgState state, const char file[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(WriteAndReplace(PgParticlesComm(particles), particles, state, file));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgCheckpointWriteState(MPI_Comm comm, PgState state, const char file[])
+{
+  PetscFunctionBeginUser;
+  PetscCall(WriteAndReplace(comm, NULL, state, file));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgCheckpointSeal(const char file[])

@@ -97,9 +97,16 @@ static herr_t IndexDataset(hid_t group, const char *name, const H5L_info_t *info
   type  = H5Dget_type(dataset);
   rank  = space >= 0 ? H5Sget_simple_extent_dims(space, size, NULL) : 0;
   for (int k = 1; k < rank; k++) components *= (PetscInt)size[k];
-  if (rank >= 1 && rank <= PG_HDF_MAX_RANK && type >= 0)
-    walk->err = PgXdmfAddField(walk->output, walk->group, name, components,
-                               (PetscBool)(H5Tget_class(type) == H5T_INTEGER), (PetscInt)size[0]);
+  if (rank >= 1 && rank <= PG_HDF_MAX_RANK && type >= 0) {
+    /* a plane mesh of quadrilaterals never has as many nodes as cells */
+    const PgGridField field = {
+        .name = name, .of_cells = (PetscBool)((PetscInt)size[0] == walk->output->grid.cells), .components = components};
+    if (walk->output->particles)
+      walk->err = PgXdmfAddField(walk->output, walk->group, name, components,
+                                 (PetscBool)(H5Tget_class(type) == H5T_INTEGER), (PetscInt)size[0]);
+    else
+      walk->err = PgXdmfAddGridField(walk->output, walk->group, &field);
+  }
   if (type >= 0) (void)H5Tclose(type);
   if (space >= 0) (void)H5Sclose(space);
   (void)H5Dclose(dataset);
@@ -112,7 +119,7 @@ static PetscErrorCode IndexSnapshot(PgOutput output, PgHdf *hdf, PetscInt number
   char      group[32];
   Walk      walk = {output, hdf, group, 0};
   PetscReal time = 0.0;
-  PetscInt  rows;
+  PetscInt  rows = 0;
   hid_t     attribute;
 
   PetscFunctionBeginUser;
@@ -122,8 +129,12 @@ static PetscErrorCode IndexSnapshot(PgOutput output, PgHdf *hdf, PetscInt number
   if (attribute < 0) PetscFunctionReturn(0);
   PgHdfWatch(hdf, "read attribute time of", group, H5Aread(attribute, PG_HDF_REAL, &time));
   (void)H5Aclose(attribute);
-  PetscCall(PgParticlesGetSizes(output->particles, NULL, NULL, &rows));
-  PetscCall(PgXdmfBeginGrid(output, group, time, rows));
+  if (output->particles) {
+    PetscCall(PgParticlesGetSizes(output->particles, NULL, NULL, &rows));
+    PetscCall(PgXdmfBeginGrid(output, group, time, rows));
+  } else {
+    PetscCall(PgXdmfBeginMesh(output, group, time));
+  }
   PgHdfWatch(hdf, "walk through group", group,
              H5Literate_by_name(hdf->id, group, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, IndexDataset, &walk, H5P_DEFAULT));
   PetscCall(walk.err);
@@ -252,7 +263,7 @@ static PetscErrorCode ExamineTogether(PgOutput output, const char run[], Found *
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Continue(PgOutput output, const char run[], PetscInt rows, PetscInt snapshots, const char from[])
+PetscErrorCode PgOutputTakeUp(PgOutput output, const char run[], PetscInt rows, PetscInt snapshots, const char from[])
 {
   Found     found = {0, 0, ""};
   PetscBool undone;
@@ -277,22 +288,30 @@ static PetscErrorCode Continue(PgOutput output, const char run[], PetscInt rows,
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgOutputIsThere(MPI_Comm comm, const char file[], PetscBool *there)
+{
+  PetscMPIInt rank;
+  struct stat status;
+  const char *reason = NULL;
+
+  PetscFunctionBeginUser;
+  *there = PETSC_FALSE;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) reason = PgIsThere(file, there, &status);
+  PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "result file", file, reason));
+  PetscCallMPI(MPI_Bcast(there, 1, MPIU_BOOL, 0, comm));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgOutputContinue(PgParticles particles, const char file[], PetscInt columns, const PgColumn column[],
                                 const char run[], PetscInt rows, PetscInt snapshots, const char from[],
                                 PgOutput *output)
 {
-  const MPI_Comm comm = PgParticlesComm(particles);
-  PetscMPIInt    rank;
-  PetscBool      there = PETSC_FALSE;
-  struct stat    status;
-  const char    *reason = NULL;
+  PetscBool      there;
   PetscErrorCode err;
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) reason = PgIsThere(file, &there, &status);
-  PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "result file", file, reason));
-  PetscCallMPI(MPI_Bcast(&there, 1, MPIU_BOOL, 0, comm));
+  PetscCall(PgOutputIsThere(PgParticlesComm(particles), file, &there));
   if (!there) {
     if (run[0])
       PetscCall(PgOutputCreateAs(particles, file, columns, column, run, output));
@@ -301,7 +320,7 @@ PetscErrorCode PgOutputContinue(PgParticles particles, const char file[], PetscI
     PetscFunctionReturn(0);
   }
   PetscCall(PgOutputPrepare(PgParticlesComm(particles), particles, file, columns, column, output));
-  err = Continue(*output, run, rows, snapshots, from);
+  err = PgOutputTakeUp(*output, run, rows, snapshots, from);
   if (err) PetscCall(PgOutputDestroy(output));
   PetscFunctionReturn(err);
 }

@@ -17,21 +17,60 @@ PetscErrorCode PgGridWriteMesh(PgOutput output, PgHdf *hdf, const PgGrid *grid)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgOutputCreateGrid(MPI_Comm comm, const char file[], const PgGrid *grid, PetscInt columns,
-                                  const PgColumn column[], PgOutput *output)
+/* Everything but the files. */
+static PetscErrorCode Prepare(MPI_Comm comm, const char file[], const PgGrid *grid, PetscInt columns,
+                              const PgColumn column[], PgOutput *output)
 {
-  const PetscReal mesh = 16.0 * (PetscReal)grid->nodes + 4.0 * sizeof(PetscInt) * (PetscReal)grid->cells;
-  PetscErrorCode  err;
-
   PetscFunctionBeginUser;
   PetscCheck(grid->nodes > 0 && grid->cells > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, "a mesh without cells");
   PetscCall(PgOutputPrepare(comm, NULL, file, columns, column, output));
   (*output)->grid          = *grid;
   (*output)->grid.position = NULL;
   (*output)->grid.corner   = NULL;
-  PetscCall(PgRunName(comm, (*output)->run));
-  err = PgOutputCheckRoom(*output, PgHistoryBytes(*output) + PG_PROVENANCE_BYTES + mesh);
-  if (!err) err = PgOutputWriteFirst(*output, grid);
+  PetscFunctionReturn(0);
+}
+
+/* Creates the files of a prepared output; `run` empty: of a new run. */
+static PetscErrorCode Create(PgOutput output, const PgGrid *grid, const char run[])
+{
+  const PetscReal mesh = 16.0 * (PetscReal)grid->nodes + 4.0 * sizeof(PetscInt) * (PetscReal)grid->cells;
+
+  PetscFunctionBeginUser;
+  if (run[0])
+    PetscCall(PetscStrncpy(output->run, run, sizeof output->run));
+  else
+    PetscCall(PgRunName(output->comm, output->run));
+  PetscCall(PgOutputCheckRoom(output, PgHistoryBytes(output) + PG_PROVENANCE_BYTES + mesh));
+  PetscCall(PgOutputWriteFirst(output, grid));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgOutputCreateGrid(MPI_Comm comm, const char file[], const PgGrid *grid, PetscInt columns,
+                                  const PgColumn column[], PgOutput *output)
+{
+  PetscErrorCode err;
+
+  PetscFunctionBeginUser;
+  PetscCall(Prepare(comm, file, grid, columns, column, output));
+  err = Create(*output, grid, "");
+  if (err) PetscCall(PgOutputDestroy(output));
+  PetscFunctionReturn(err);
+}
+
+PetscErrorCode PgOutputContinueGrid(MPI_Comm comm, const char file[], const PgGrid *grid, PetscInt columns,
+                                    const PgColumn column[], const char run[], PetscInt rows, PetscInt snapshots,
+                                    const char from[], PgOutput *output)
+{
+  PetscBool      there;
+  PetscErrorCode err;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgOutputIsThere(comm, file, &there));
+  PetscCall(Prepare(comm, file, grid, columns, column, output));
+  if (there)
+    err = PgOutputTakeUp(*output, run, rows, snapshots, from);
+  else
+    err = Create(*output, grid, run);
   if (err) PetscCall(PgOutputDestroy(output));
   PetscFunctionReturn(err);
 }

@@ -206,6 +206,10 @@ PETSC_INTERN PetscErrorCode PgOutputCreateAs(PgParticles particles, const char f
                                              const PgColumn column[], const char run[], PgOutput *output);
 PETSC_INTERN PetscErrorCode PgOutputPrepare(MPI_Comm comm, PgParticles particles, const char file[], PetscInt columns,
                                             const PgColumn column[], PgOutput *output);
+/* continue.c: whether the file is there; and of an output that is prepared, takes up the files of the run. Collective. */
+PETSC_INTERN PetscErrorCode PgOutputIsThere(MPI_Comm comm, const char file[], PetscBool *there);
+PETSC_INTERN PetscErrorCode PgOutputTakeUp(PgOutput output, const char run[], PetscInt rows, PetscInt snapshots,
+                                           const char from[]);
 /* Creates the three files, before any snapshot; `grid` is NULL for discs. */
 PETSC_INTERN PetscErrorCode PgOutputWriteFirst(PgOutput output, const PgGrid *grid);
 PETSC_INTERN PetscErrorCode PgGridWriteMesh(PgOutput output, PgHdf *hdf, const PgGrid *grid);

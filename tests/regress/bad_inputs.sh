@@ -307,6 +307,88 @@ number head 'no vector after the matrix' "$vector" '\000\000\000\000'
 number length 'a vector of another length' "$((vector + 4))" '\000\000\000\001'
 number infinite 'inf in the right-hand side' "$((vector + 8))" '\177\360\000\000\000\000\000\000'
 
+# ---- the continuum ----
+table 'Continuum'
+# 2 x 1 cells on 2 m x 1 m, as Gmsh writes them
+cat >good.msh <<'MESH'
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+5
+1 1 "bottom"
+1 2 "right"
+1 3 "top"
+1 4 "left"
+2 1 "ground"
+$EndPhysicalNames
+$Nodes
+6
+1 0 0 0
+2 1 0 0
+3 2 0 0
+4 0 1 0
+5 1 1 0
+6 2 1 0
+$EndNodes
+$Elements
+8
+1 1 2 1 1 1 2
+2 1 2 1 1 2 3
+3 1 2 2 2 3 6
+4 1 2 3 3 6 5
+5 1 2 3 3 5 4
+6 1 2 4 4 4 1
+7 3 2 1 1 1 2 5 4
+8 3 2 1 1 2 3 6 5
+$EndElements
+MESH
+up='-case up_terzaghi -dt 1 -end_time 4'
+# shellcheck disable=SC2086
+{
+  "$POROGRAIN" $up -up_mesh good.msh >good.out
+  "$POROGRAIN" $up -up_cells 1,4 -checkpoint up.pgc >good.out
+}
+# continuum STATUS NAME LABEL OPTION...
+continuum() {
+  local status=$1 name=$2 label=$3
+  shift 3
+  # shellcheck disable=SC2086
+  bad "$status" "$name" "$label" "$POROGRAIN" $up -output result-NUMBER.h5 "$@"
+}
+# mesh NAME LABEL SED: good.msh, edited
+mesh() {
+  sed "$3" good.msh >"$1.msh"
+  ! cmp -s good.msh "$1.msh" || fail "mesh $1 is the good one"
+  continuum 2 "$1.msh" "$2" -up_mesh "$1.msh"
+}
+continuum 2 absent.msh 'no mesh of this name' -up_mesh absent.msh
+continuum 2 empty.csv 'an empty file as a mesh' -up_mesh empty.csv
+continuum 2 good.csv 'a table as a mesh' -up_mesh good.csv
+mesh old_format 'a mesh of MSH version 1' 's/^2.2 0 8/1.0 0 8/'
+mesh half_mesh 'a mesh that ends after its nodes' '/EndNodes/q'
+mesh many_nodes 'a mesh that says it has 10^8 nodes' 's/^6$/99999999/'
+mesh nan_node 'a mesh with a node at nan' 's/^5 1 1 0/5 nan 1 0/'
+mesh same_node 'a mesh with node 4 twice' 's/^5 1 1 0/4 1 1 0/'
+mesh no_node 'a mesh whose cell has node 9' 's/^8 3 2 1 1 2 3 6 5/8 3 2 1 1 2 3 6 9/'
+mesh triangle 'a mesh with triangles' 's/^8$/9/; s/^8 3 2 1 1 2 3 6 5/8 2 2 1 1 2 3 6\n9 2 2 1 1 2 6 5/'
+mesh folded 'a mesh with a cell that is folded' 's/^5 1 1 0/5 -1 0.5 0/'
+mesh no_top 'a mesh without the boundary `top`' 's/"top"/"lid"/'
+continuum 2 Poisson '`-up_poisson 0.5`' -up_poisson 0.5
+continuum 2 'porosity' '`-up_porosity 1`' -up_porosity 1
+continuum 2 'Biot' '`-up_biot 0.1`' -up_biot 0.1
+continuum 2 -up_theta '`-up_theta 0.4`' -up_theta 0.4
+continuum 2 -up_cells '`-up_cells 2.5,3`' -up_cells 2.5,3
+continuum 2 -up_permeability '`-up_permeability nan`' -up_permeability nan
+head -c 3000 up.pgc >half_up.pgc
+continuum 4 half_up.pgc 'a checkpoint, the first 3000 bytes' -up_cells 1,4 -restart half_up.pgc
+head -c -32 up.pgc >nan_up.pgc
+"$SUPPORT/damage" nan_up.pgc value /state/up_nodes 9 nan
+"$SUPPORT/damage" nan_up.pgc seal
+continuum 4 nan_up.pgc 'a checkpoint with nan in `up_nodes`' -up_cells 1,4 -restart nan_up.pgc
+continuum 4 up.pgc 'a checkpoint of a mesh of another size' -up_cells 1,5 -restart up.pgc
+continuum 4 good.pgc 'a checkpoint of discs' -up_cells 1,4 -restart good.pgc
+
 # ---- options files ----
 table 'Options files'
 # options STATUS NAME LABEL TEXT: a file of that name and text (printf's escapes)
@@ -365,7 +447,7 @@ if compgen -G 'failed-*' >/dev/null; then
   cat failed-* >&2
   fail "$(find . -maxdepth 1 -name 'failed-*' | wc -l) of $count inputs"
 fi
-[ "$count" -ge 130 ] || fail "only $count bad inputs"
+[ "$count" -ge 150 ] || fail "only $count bad inputs"
 [ "$(find . -maxdepth 1 -name 'row-*-a' -size +0 | wc -l)" = "$count" ] || fail 'not one line for each input'
 {
   printf '# Bad input, and what is said about it\n\n'
