@@ -161,8 +161,25 @@ PETSC_INTERN PetscErrorCode PgFemLayOutNodes(PgFem fem, const PetscInt number[])
 PETSC_INTERN PetscErrorCode PgFemLayOutCells(PgFem fem, const PetscInt number[]);
 PETSC_INTERN PetscErrorCode PgFemLayOutBoundaries(PgFem fem);
 
-/* gmshcheck.c: for one rank; reason stays empty when PETSc can be trusted with the file */
-PETSC_INTERN PetscErrorCode PgFemGmshCheck(const char file[], char reason[], size_t size);
+/* gmshscan.c: what stands in a mesh file. On one rank; reason stays empty when all went well. */
+typedef struct {
+  long   number;
+  double x[3];
+} PgFemGmshNode;
+typedef struct {
+  long number;
+  int  corners;   /* 1: point, 2: line, 3: triangle, 4: quadrilateral */
+  long corner[4]; /* places among the nodes */
+} PgFemGmshElement;
+typedef struct {
+  long              nodes, elements;
+  PgFemGmshNode    *node; /* by their numbers */
+  PgFemGmshElement *element;
+} PgFemGmsh;
+PETSC_INTERN PetscErrorCode PgFemGmshScan(const char file[], PgFemGmsh *mesh, char reason[], size_t size);
+PETSC_INTERN PetscErrorCode PgFemGmshFree(PgFemGmsh *mesh);
+/* gmshcheck.c: whether it is one mesh of quadrilaterals; on one rank, as above */
+PETSC_INTERN PetscErrorCode PgFemGmshCheck(const PgFemGmsh *mesh, char reason[], size_t size);
 
 /* gmsh.c: the mesh of a file, before it is distributed, and the names of its physical groups */
 typedef struct {

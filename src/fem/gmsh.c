@@ -96,13 +96,6 @@ static PetscErrorCode Try(const char file[], char reason[REASON])
     (void)snprintf(reason, REASON, "its cells have %d dimensions, not 2", (int)dimension);
   else if (start == end)
     (void)snprintf(reason, REASON, "it has no cells");
-  for (PetscInt c = start; c < end && !reason[0]; c++) {
-    DMPolytopeType type;
-    PetscCall(DMPlexGetCellType(dm, c, &type));
-    if (type != DM_POLYTOPE_QUADRILATERAL)
-      (void)snprintf(reason, REASON, "cell %" PetscInt_FMT " is a %s, not a quadrilateral (in Gmsh: Recombine Surface)",
-                     c - start + 1, DMPolytopeTypes[type]);
-  }
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
   PetscCall(DMGetCoordinateSection(dm, &section));
   if (!reason[0]) {
@@ -126,7 +119,12 @@ PetscErrorCode PgFemGmshRead(MPI_Comm comm, const char file[], DM *dm, PetscInt 
   *group  = NULL;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) PetscCall(ReadGroups(file, groups, group, reason));
-  if (rank == 0 && !reason[0]) PetscCall(PgFemGmshCheck(file, reason, sizeof reason));
+  if (rank == 0 && !reason[0]) {
+    PgFemGmsh mesh;
+    PetscCall(PgFemGmshScan(file, &mesh, reason, sizeof reason));
+    if (!reason[0]) PetscCall(PgFemGmshCheck(&mesh, reason, sizeof reason));
+    PetscCall(PgFemGmshFree(&mesh));
+  }
   if (rank == 0 && !reason[0]) PetscCall(Try(file, reason));
   PetscCallMPI(MPI_Bcast(reason, REASON, MPI_CHAR, 0, comm));
   PetscCallMPI(MPI_Bcast(groups, 1, MPIU_INT, 0, comm));

@@ -1,186 +1,172 @@
-/* A look at a mesh file of Gmsh in text form before PETSc reads it: PETSc 3.18 takes the numbers in it on trust, and a cell
-   with a node that is not there ends in a segmentation fault. Formats as in Gmsh's reference manual, MSH 2.2, 4.0, 4.1. */
+/* Whether the elements of a mesh file make one plane mesh of quadrilaterals, said by the numbers that the file has. */
 #include "femimpl.h"
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { LINE = 4096, NUMBERS = 64 };
+/* A side of a quadrilateral. */
+typedef struct {
+  long      node[2]; /* the smaller one first */
+  long      element;
+  PetscBool forward; /* counter-clockwise around its element from the smaller node to the larger one */
+} Side;
 
 typedef struct {
-  FILE  *stream;
-  char  *reason;
-  size_t size;
-  int    words;                   /* of the line before */
-  long   line, nodes, room, most; /* most: bytes of the file, more of anything cannot be in it */
-  long  *node;
-} Scan;
+  const PgFemGmsh *mesh;
+  char            *reason;
+  size_t           size;
+  long             sides;
+  Side            *side;
+  long            *piece; /* (elements) an element of the same piece, closer to its root */
+} Check;
 
-static PetscBool Bad(Scan *s, const char what[])
+static long Number(const Check *c, long element) { return c->mesh->element[element].number; }
+static long NodeNumber(const Check *c, long node) { return c->mesh->node[node].number; }
+
+/* Sign of the area of a quadrilateral when it is convex, 0 when it is not or is as good as flat. */
+static int Orientation(const PgFemGmsh *mesh, const PgFemGmshElement *e)
 {
-  if (!s->reason[0]) (void)snprintf(s->reason, s->size, "line %ld: %s", s->line, what);
-  return PETSC_TRUE;
-}
+  double least = PETSC_MAX_REAL, most = -PETSC_MAX_REAL;
 
-/* The numbers of the next line, as far as they are whole; their count, -1: there is no such line. */
-static int Next(Scan *s, long number[NUMBERS])
-{
-  char text[LINE], *at = text, *end;
-  int  count = 0;
-
-  if (!fgets(text, sizeof text, s->stream)) return -1;
-  s->line++;
-  s->words = 0;
-  for (const char *c = text; *c; c++)
-    if (!strchr(" \t\r\n", *c) && (c == text || strchr(" \t\r\n", c[-1]))) s->words++;
-  for (; count < NUMBERS; count++, at = end) {
-    number[count] = strtol(at, &end, 10);
-    if (end == at || (*end && !strchr(" \t\r\n", *end))) break;
+  for (int k = 0; k < 4; k++) {
+    const double *a = mesh->node[e->corner[(k + 3) % 4]].x, *b = mesh->node[e->corner[k]].x,
+                 *c   = mesh->node[e->corner[(k + 1) % 4]].x;
+    const double turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
+    least             = PetscMin(least, turn);
+    most              = PetscMax(most, turn);
   }
-  return count;
+  if (least > 1e-12 * most && least > 0.0) return 1; /* 1e-12: far below any useful cell, far above rounding */
+  return most < 1e-12 * least && most < 0.0 ? -1 : 0;
 }
 
-static PetscBool Find(Scan *s, const char section[])
+/* The element by itself; its sides go to the list. */
+static void TakeQuadrilateral(Check *c, long element)
 {
-  char text[LINE];
+  const PgFemGmshElement *e       = &c->mesh->element[element];
+  const int               turning = Orientation(c->mesh, e);
 
-  while (fgets(text, sizeof text, s->stream)) {
-    s->line++;
-    if (strncmp(text, section, strlen(section)) == 0) return PETSC_TRUE;
+  for (int k = 0; k < 4 && !c->reason[0]; k++)
+    for (int l = 0; l < k; l++)
+      if (e->corner[k] == e->corner[l])
+        (void)snprintf(c->reason, c->size, "element %ld has node %ld twice", e->number, NodeNumber(c, e->corner[k]));
+  if (!turning && !c->reason[0]) {
+    double x[2] = {0.0, 0.0};
+    for (int k = 0; k < 4; k++)
+      for (int d = 0; d < 2; d++) x[d] += 0.25 * c->mesh->node[e->corner[k]].x[d];
+    (void)snprintf(c->reason, c->size, "element %ld, the cell at (%g, %g), is not a convex quadrilateral", e->number,
+                   x[0], x[1]);
   }
-  (void)snprintf(s->reason, s->size, "it has no %s", section);
-  return PETSC_FALSE;
-}
-
-static PetscBool AddNode(Scan *s, long number)
-{
-  if (number <= 0) return Bad(s, "the number of a node must be > 0");
-  if (s->nodes == s->room) return Bad(s, "more nodes than were said");
-  s->node[s->nodes++] = number;
-  return PETSC_FALSE;
-}
-
-static int Ascending(const void *a, const void *b)
-{
-  const long x = *(const long *)a, y = *(const long *)b;
-  return (x > y) - (x < y);
-}
-
-/* `count` lines of "number x y z" (four words), or of a number alone. */
-static PetscBool TakeNodes(Scan *s, long count, int words)
-{
-  long number[NUMBERS];
-
-  if (count < 0 || count > s->most) return Bad(s, "no such number of nodes can be in the file");
-  for (long k = 0; k < count; k++)
-    if (Next(s, number) < 1 || s->words != words || AddNode(s, number[0])) return Bad(s, "not a node");
-  return PETSC_FALSE;
-}
-
-static PetscErrorCode ScanNodes(Scan *s, int version)
-{
-  long number[NUMBERS], blocks = 1;
-
-  PetscFunctionBeginUser;
-  if (!Find(s, "$Nodes")) PetscFunctionReturn(0);
-  if (Next(s, number) < (version == 22 ? 1 : 2)) number[0] = number[1] = -1;
-  s->room = number[version == 22 ? 0 : 1];
-  if (version != 22) blocks = number[0];
-  if (s->room < 1 || s->room > s->most || blocks < 1 || blocks > s->most) {
-    (void)Bad(s, "no such number of nodes can be in the file");
-    PetscFunctionReturn(0);
+  for (int k = 0; k < 4; k++) {
+    const long a = e->corner[k], b = e->corner[(k + 1) % 4];
+    c->side[c->sides++] = (Side){{PetscMin(a, b), PetscMax(a, b)}, element, (PetscBool)((a < b) == (turning > 0))};
   }
-  PetscCall(PetscMalloc1(s->room, &s->node));
-  for (long b = 0; b < blocks && !s->reason[0]; b++) {
-    long count = s->room;
-    if (version != 22) {
-      if (Next(s, number) < 4) (void)Bad(s, "not the head of a block of nodes");
-      count = number[3];
-    }
-    if (s->reason[0] || TakeNodes(s, count, version == 41 ? 1 : 4)) break;
-    for (long k = 0; version == 41 && k < count; k++) /* coordinates come after the numbers */
-      if (Next(s, number) < 0 || s->words != 3) (void)Bad(s, "not a place of a node");
+}
+
+static int BySide(const void *a, const void *b)
+{
+  const Side *s = (const Side *)a, *t = (const Side *)b;
+
+  for (int k = 0; k < 2; k++)
+    if (s->node[k] != t->node[k]) return s->node[k] < t->node[k] ? -1 : 1;
+  if (s->forward != t->forward) return s->forward ? 1 : -1;
+  return (s->element > t->element) - (s->element < t->element);
+}
+
+static PetscBool Same(const Side *a, const Side *b)
+{
+  return (PetscBool)(a->node[0] == b->node[0] && a->node[1] == b->node[1]);
+}
+
+static long Root(Check *c, long element)
+{
+  while (c->piece[element] != element) {
+    c->piece[element] = c->piece[c->piece[element]];
+    element           = c->piece[element];
   }
-  if (!s->reason[0] && s->nodes != s->room) (void)Bad(s, "fewer nodes than were said");
-  qsort(s->node, (size_t)s->nodes, sizeof *s->node, Ascending);
-  for (long k = 1; k < s->nodes; k++)
-    if (s->node[k] == s->node[k - 1] && !s->reason[0])
-      (void)snprintf(s->reason, s->size, "node %ld stands twice", s->node[k]);
-  PetscFunctionReturn(0);
+  return element;
 }
 
-/* Corners of the kinds of elements that a plane mesh may have, 0: none of them. */
-static int Corners(long type) { return type == 15 ? 1 : type == 1 ? 2 : type == 2 ? 3 : type == 3 ? 4 : 0; }
-
-static PetscBool TakeElement(Scan *s, const long node[], int count)
+/* Two quadrilaterals share a side, and run along it in opposite directions; or one of three lies on another. */
+static void CheckSides(Check *c)
 {
-  for (int k = 0; k < count; k++)
-    if (!s->nodes || !bsearch(&node[k], s->node, (size_t)s->nodes, sizeof *s->node, Ascending)) {
-      if (!s->reason[0]) (void)snprintf(s->reason, s->size, "line %ld: there is no node %ld", s->line, node[k]);
-      return PETSC_TRUE;
-    }
-  return PETSC_FALSE;
+  qsort(c->side, (size_t)c->sides, sizeof *c->side, BySide);
+  for (long k = 1; k < c->sides && !c->reason[0]; k++) {
+    const Side *s = &c->side[k - 1], *t = &c->side[k];
+    if (!Same(s, t)) continue;
+    if (s->forward == t->forward)
+      (void)snprintf(c->reason, c->size, "elements %ld and %ld lie on each other at the side between nodes %ld and %ld",
+                     Number(c, s->element), Number(c, t->element), NodeNumber(c, s->node[0]),
+                     NodeNumber(c, s->node[1]));
+    c->piece[Root(c, s->element)] = Root(c, t->element);
+  }
 }
 
-static void ScanElements(Scan *s, int version)
+/* All in one piece, hanging together by sides. */
+static void CheckPieces(Check *c)
 {
-  long number[NUMBERS], count, blocks = 1, type = 0;
+  long first = -1;
 
-  if (!Find(s, "$Elements")) return;
-  if (Next(s, number) < 1) number[0] = -1;
-  count = number[0];
-  if (version != 22) blocks = number[0];
-  if (count < 1 || count > s->most) (void)Bad(s, "no such number of elements can be in the file");
-  for (long b = 0; b < blocks && !s->reason[0]; b++) {
-    if (version != 22) {
-      if (Next(s, number) < 4) (void)Bad(s, "not the head of a block of elements");
-      count = number[3];
-      type  = number[2];
-    }
-    if (count < 0 || count > s->most) (void)Bad(s, "no such number of elements can be in the file");
-    for (long k = 0; k < count && !s->reason[0]; k++) {
-      const int found = Next(s, number);
-      int       first = 1;
-      if (version == 22) {
-        type  = found > 2 ? number[1] : 0;
-        first = found > 2 && number[2] >= 0 && number[2] < NUMBERS ? 3 + (int)number[2] : NUMBERS;
-      }
-      if (!Corners(type))
-        (void)Bad(s, "an element that is no point, line, triangle or quadrilateral of the first order");
-      else if (found != first + Corners(type))
-        (void)Bad(s, "not an element of its type");
+  for (long e = 0; e < c->mesh->elements && !c->reason[0]; e++) {
+    if (c->mesh->element[e].corners != 4) continue;
+    if (first < 0) first = e;
+    if (Root(c, e) != Root(c, first))
+      (void)snprintf(c->reason, c->size,
+                     "it is in pieces: no chain of cells with common sides leads from element %ld to element %ld",
+                     Number(c, first), Number(c, e));
+  }
+}
+
+static void CheckLines(Check *c)
+{
+  for (long e = 0; e < c->mesh->elements && !c->reason[0]; e++) {
+    const PgFemGmshElement *line = &c->mesh->element[e];
+    const long              a = line->corner[0], b = line->corner[1];
+    const Side              key = {{PetscMin(a, b), PetscMax(a, b)}, -1, PETSC_FALSE}; /* before all others there */
+    long                    low = 0, high = c->sides;
+    if (line->corners != 2) continue;
+    while (low < high) { /* the first side that is not before the key */
+      const long middle = low + (high - low) / 2;
+      if (BySide(&c->side[middle], &key) < 0)
+        low = middle + 1;
       else
-        (void)TakeElement(s, number + first, Corners(type));
+        high = middle;
     }
+    if (low == c->sides || !Same(&c->side[low], &key))
+      (void)snprintf(c->reason, c->size, "element %ld, the line between nodes %ld and %ld, is no side of a cell",
+                     line->number, NodeNumber(c, a), NodeNumber(c, b));
   }
 }
 
-PetscErrorCode PgFemGmshCheck(const char file[], char reason[], size_t size)
+/* All in the plane z = 0 but for rounding. */
+static void CheckPlane(Check *c)
 {
-  Scan   s = {.reason = reason, .size = size};
-  double version;
-  int    binary;
-  char   text[LINE];
+  double extent = 0.0;
+
+  for (long k = 0; k < c->mesh->nodes; k++)
+    for (int d = 0; d < 2; d++) extent = PetscMax(extent, PetscAbsReal(c->mesh->node[k].x[d] - c->mesh->node[0].x[d]));
+  for (long k = 0; k < c->mesh->nodes && !c->reason[0]; k++)
+    if (PetscAbsReal(c->mesh->node[k].x[2]) > 1e-9 * extent)
+      (void)snprintf(c->reason, c->size, "node %ld lies at z = %g, out of the plane z = 0", NodeNumber(c, k),
+                     c->mesh->node[k].x[2]);
+}
+
+PetscErrorCode PgFemGmshCheck(const PgFemGmsh *mesh, char reason[], size_t size)
+{
+  Check c = {.mesh = mesh, .reason = reason, .size = size};
 
   PetscFunctionBeginUser;
-  s.stream = fopen(file, "rb");
-  if (!s.stream) PetscFunctionReturn(0); /* told elsewhere */
-  (void)fseek(s.stream, 0, SEEK_END);
-  s.most = ftell(s.stream);
-  rewind(s.stream);
-  (void)Find(&s, "$MeshFormat");
-  if (!fgets(text, sizeof text, s.stream) || sscanf(text, "%lf %d", &version, &binary) != 2)
-    (void)Bad(&s, "no version of a mesh of Gmsh");
-  else {
-    const int known = version == 2.2 ? 22 : version == 4.0 ? 40 : version == 4.1 ? 41 : 0;
-    s.line++;
-    if (!known) (void)snprintf(reason, size, "MSH version %g is not one of 2.2, 4.0, 4.1", version);
-    if (known && !binary) {
-      PetscCall(ScanNodes(&s, known));
-      if (!reason[0]) ScanElements(&s, known);
-    }
+  PetscCall(PetscMalloc2(4 * mesh->elements, &c.side, mesh->elements, &c.piece));
+  CheckPlane(&c);
+  for (long e = 0; e < mesh->elements && !reason[0]; e++) {
+    c.piece[e] = e;
+    if (mesh->element[e].corners == 3)
+      (void)snprintf(reason, size, "element %ld is a triangle, not a quadrilateral (in Gmsh: Recombine Surface)",
+                     mesh->element[e].number);
+    if (mesh->element[e].corners == 4) TakeQuadrilateral(&c, e);
   }
-  (void)fclose(s.stream);
-  PetscCall(PetscFree(s.node));
+  if (!reason[0] && !c.sides) (void)snprintf(reason, size, "it has no quadrilaterals");
+  if (!reason[0]) CheckSides(&c);
+  if (!reason[0]) CheckPieces(&c);
+  if (!reason[0]) CheckLines(&c);
+  PetscCall(PetscFree2(c.side, c.piece));
   PetscFunctionReturn(0);
 }

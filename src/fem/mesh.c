@@ -7,6 +7,10 @@ static PetscErrorCode AddBoundary(PgFem fem, PetscInt tag, const char name[])
   PgFemBoundary *b;
 
   PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < fem->boundaries; k++)
+    PgInputCheck(strcmp(fem->boundary[k].name, name) != 0, fem->comm,
+                 "mesh file '%s': groups %" PetscInt_FMT " and %" PetscInt_FMT " of curves are both named '%s'",
+                 fem->file, fem->boundary[k].tag, tag, name);
   PetscCall(PetscRealloc((size_t)(fem->boundaries + 1) * sizeof *fem->boundary, &fem->boundary));
   b = &fem->boundary[fem->boundaries++];
   PetscCall(PetscMemzero(b, sizeof *b));
@@ -18,6 +22,10 @@ static PetscErrorCode AddBoundary(PgFem fem, PetscInt tag, const char name[])
 static PetscErrorCode AddRegion(PgFem fem, PetscInt tag, const char name[])
 {
   PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < fem->regions; k++)
+    PgInputCheck(strcmp(fem->region_name[k], name) != 0, fem->comm,
+                 "mesh file '%s': groups %" PetscInt_FMT " and %" PetscInt_FMT " of surfaces are both named '%s'",
+                 fem->file, fem->region_tag[k], tag, name);
   PetscCall(PetscRealloc((size_t)(fem->regions + 1) * sizeof *fem->region_tag, &fem->region_tag));
   PetscCall(PetscRealloc((size_t)(fem->regions + 1) * sizeof *fem->region_name, &fem->region_name));
   fem->region_tag[fem->regions] = tag;
