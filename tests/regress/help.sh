@@ -25,18 +25,19 @@ section() {
   "$POROGRAIN" -help "$name" >"$name.txt" || fail "-help $name: status $?"
   for option; do expect_match "^  $option( |\$)" "$name.txt"; done
 }
-section run -case -fluid -dt -end_time -gravity
-section output -output -checkpoint -restart -recover
-section particles -particles_balance
-section neighbors -neighbors_skin
-section dem -dem_k_n -plate_friction
-section water -ns_theta -bc_left_pressure -permeability -porosity
-section sph -sph_laplacian_eta
-section pressure -pressure -pressure_sweeps -pressure_ksp_type -pressure_ksp_rtol -pressure_pc_type
-section panel -panel_columns -panel_displacement
-section column_terzaghi -column_load
-section undrained -column_load
-section ns_theta -ns_theta
+beside section run -case -fluid -dt -end_time -gravity
+beside section output -output -checkpoint -restart -recover
+beside section particles -particles_balance
+beside section neighbors -neighbors_skin
+beside section dem -dem_k_n -plate_friction
+beside section water -ns_theta -bc_left_pressure -permeability -porosity
+beside section sph -sph_laplacian_eta
+beside section pressure -pressure -pressure_sweeps -pressure_ksp_type -pressure_ksp_rtol -pressure_pc_type
+beside section panel -panel_columns -panel_displacement
+beside section column_terzaghi -column_load
+beside section undrained -column_load
+beside section ns_theta -ns_theta
+together
 [ "$(grep -c '^  -' ns_theta.txt)" -eq 1 ] || fail '-help ns_theta shows more than that'
 grep -A 2 '^  -dem_k_n \[N/m\]$' dem.txt >one.txt
 expect_match 'Normal stiffness, Eq\. 8' one.txt

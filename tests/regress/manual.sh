@@ -13,16 +13,19 @@ porograin_study=("-study_sizes 31 -study_solvers $SOURCE_DIR/options/solvers/all
 porograin_plot=('-plot_gnuplot none')
 # known PROGRAM OPTION: in one of the settings the program complains about another option, or about the value
 known() {
-  local setting name
+  local setting name out=known-$(basename "$1")$2.out
   name=$(basename "$1" | tr - _)
   local -n settings=$name
   for setting in "${settings[@]}"; do
     # shellcheck disable=SC2086
-    "$1" $setting "$2" "$none" >known.out 2>&1 </dev/null && return 1
-    grep -q "unknown option $2\b" known.out || return 0
+    "$1" $setting "$2" "$none" >"$out" 2>&1 </dev/null && return 1
+    grep -q "unknown option $2\b" "$out" || return 0
   done
   return 1
 }
+# is_known PROGRAM OPTION
+is_known() { known "$1" "$2" || fail "$(basename "$1").1: the program does not know $2: $(head -n 1 known-*"$2.out")"; }
+is_unknown() { ! known "$1" "$2" || fail "$1 knows everything"; }
 options() { # PAGE: those in the headings of its lists
   sed -n '/^\.SH OPTIONS/,/^\.SH EXIT/p' "$man/$1" | sed -n '/^\.TP/{n;p}' | grep -o '\\-[a-z][a-z_]*' | sed 's/^\\//' | sort -u
 }
@@ -30,11 +33,10 @@ for program in porograin porograin-study porograin-plot; do
   binary=$(dirname "$POROGRAIN")/$program
   options "$program.1" >options
   [ "$(wc -l <options)" -ge 8 ] || fail "$program.1: only $(wc -l <options) options found"
-  ! known "$binary" -no_such_other_option || fail "$program knows everything"
-  for option in $(grep -Ev '^-(help|version|log_view|options_file)$' options); do
-    known "$binary" "$option" || fail "$program.1: the program does not know $option: $(head -n 1 known.out)"
-  done
+  beside is_unknown "$binary" -no_such_other_option
+  for option in $(grep -Ev '^-(help|version|log_view|options_file)$' options); do beside is_known "$binary" "$option"; done
 done
+together
 # The fields of porograin-plot, all of them.
 "$POROGRAIN_PLOT" none.h5 -plot_fields none >fields.out 2>&1 || true
 sed -n 's/.*there are //p' fields.out | tr -d ',' | tr ' ' '\n' >fields

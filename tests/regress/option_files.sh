@@ -7,15 +7,15 @@
 options="$SOURCE_DIR/options"
 runs=0
 
-# short NAME options...: in the background, two at a time
+# short NAME options...: in the background
 short() {
   local name=$1
   shift
   runs=$((runs + 1))
+  while [ "$(jobs -rp | wc -l)" -ge "$abreast" ]; do wait -n || true; done
   {
     "$POROGRAIN" "$@" -output "$name.h5" >"$name.log" 2>&1 </dev/null || { echo "$name: $*" && tail -n 3 "$name.log"; } >"$name.failed"
   } &
-  if [ $((runs % 2)) -eq 0 ]; then wait; fi
 }
 
 none_failed() {
