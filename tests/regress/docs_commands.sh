@@ -8,7 +8,7 @@
 #   <!-- by: FILE -->               another test, FILE, runs it
 #   <!-- clone -->                  as it stands, in a new clone of the source, only with POROGRAIN_LONG_TESTS
 #   <!-- needs: WORD... -->         programs or files without which it is left out
-#   <!-- not run: REASON -->        never
+#   <!-- not run: REASON -->        never; but the presets and targets that it names are there
 # and <!-- all ... --> says it for all blocks of the page that follow.
 . "$SOURCE_DIR/tests/support/regress.sh"
 long=${DOCS_LONG:-no}
@@ -63,6 +63,20 @@ run_block() {
   fi
 }
 
+# Presets and targets of CMake, as "preset NAME" and "target NAME".
+build_folder=$(dirname -- "$POROGRAIN")
+cmake=$(sed -n 's/^CMAKE_COMMAND:[^=]*=//p' "$build_folder/CMakeCache.txt")
+(cd "$SOURCE_DIR" && "$cmake" --list-presets=all) | sed -n 's/^  "\([^"]*\)".*/preset \1/p' | sort -u >cmake_names
+"$cmake" --build "$build_folder" --target help | sed -n 's/^\.\.\. \([^ ]*\).*/target \1/p; s/^\([^ :]*\): phony$/target \1/p' >>cmake_names
+
+# names_exist BLOCK: of presets and targets
+names_exist() {
+  local word
+  { grep -o -- '--\(preset\|target\) *[A-Za-z_-]*' "$1" || true; } | sed 's/^--//; s/  */ /' | while read -r word; do
+    grep -qx "$word" "$home/cmake_names" || fail "there is no $word"
+  done
+}
+
 # page FILE: all blocks
 page() {
   local file=$1 n=0 block line by start
@@ -86,6 +100,7 @@ page() {
     by=$(value "$block" by)
     [ -z "$by" ] || [ -s "$SOURCE_DIR/$by" ] || fail "$file:$line: there is no $by"
     [ -z "$by" ] || continue
+    if has "$block" 'not run'; then names_exist "$block"; fi
     if has "$block" 'not run'; then echo "  line $line: not run: $(value "$block" 'not run')"; continue; fi
     if has "$block" '\(long\|clone\)' && [ "$long" = no ]; then continue; fi
     if left_out "$block" >left_out.why; then echo "  line $line"; cat left_out.why; continue; fi
