@@ -64,7 +64,7 @@ if command -v pvpython >/dev/null && command -v xvfb-run >/dev/null; then
   cp ../case1_ns.h5 panel.h5
   sed 's/case1_ns[.]h5/panel.h5/g' ../case1_ns.xmf >panel.xmf
   awk '/^```/ { inside = 0 } /^# view.py/ { inside = 1 } inside' "$SOURCE_DIR/docs/output.md" >view.py
-  xvfb-run -a pvpython view.py
+  xvfb-run -a -s '-noreset -screen 0 1280x1024x24' pvpython view.py
   cp paraview.png "$pictures/"
   cd ..
 else
