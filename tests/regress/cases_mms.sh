@@ -1,4 +1,3 @@
-# processors: 2
 # timeout: 120
 # The cases without time, operator_mms and pressure_mms: table on the screen, as CSV and HDF5 beside -output, a picture of
 # it; an order that is missed ends the program with status 3; what they have no use for is refused, with nothing written.

@@ -1,4 +1,3 @@
-# processors: 2
 # timeout: 300
 # All memory that PETSc handed out is given back at the end of a run: dry, with water of both kinds, with results,
 # checkpoints and a restart, on one rank and on two. (Runs that are refused end without tidying up.)

@@ -1,3 +1,4 @@
+# processors: 2
 # One explicit sweep is one iteration of Richardson's method with Jacobi's preconditioner, from the same guess: in the
 # first solve and after 40 fluid steps, whatever scheme, operators and sides. k sweeps are k iterations.
 . "$SOURCE_DIR/tests/support/regress.sh"
@@ -20,8 +21,9 @@ run_panel() {
     -output_every 4e-6 "$@" >log 2>&1 || { cat log >&2; fail "$*"; }
 }
 
-# same NAME SWEEPS options...
-same() {
+# same NAME SWEEPS options...: in a folder of its own
+same() { beside within "$1" compare "$@"; }
+compare() {
   local name=$1 sweeps=$2 end
   shift 2
   for end in 4e-6 1.6e-4; do
@@ -38,6 +40,8 @@ same paper 1 -fluid ns -ns_continuity solenoidal -coupling drag -sph_operators p
 same darcy 1 -fluid darcy -coupling drag -porosity_rate sampled -bc_top flux -bc_top_flux -0.13
 same sweeps 3 -fluid ns -ns_theta 0.7 -coupling drag_and_pressure -ns_continuity averaged -sph_gradient corrected \
   -bc_tracking surface
+
+together
 
 # Everything said by hand is the same.
 # shellcheck disable=SC2086

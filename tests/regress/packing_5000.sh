@@ -1,5 +1,4 @@
 # timeout: 300
-# processors: 2
 # 5000 discs of different sizes pressed to a porosity of 0.18: in less than a minute on one core, with the same bits on
 # 1 and 4 ranks.
 . "$SOURCE_DIR/tests/support/regress.sh"

@@ -1,5 +1,4 @@
 # timeout: 120
-# processors: 2
 # Whole runs with packings: a panel that went through a file moves like the panel, chance makes the same file on any
 # number of ranks, and what was generated can be restarted.
 . "$SOURCE_DIR/tests/support/regress.sh"

@@ -1,5 +1,4 @@
 #!/usr/bin/env bash
-# processors: 2
 # timeout: 120
 # How a run tells where it is: a bar on a terminal, lines for anything else, and a summary that agrees with the results.
 . "$SOURCE_DIR/tests/support/regress.sh"

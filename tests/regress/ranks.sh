@@ -3,6 +3,7 @@
 # Result files do not depend on the number of ranks: dry and explicit runs to the last bit, implicit runs within ten
 # times the tolerance of the solver. (tests/unit/simulation_ranks.c does the same with forced migration.)
 . "$SOURCE_DIR/tests/support/regress.sh"
+abreast=2 # several ranks each, which compute more than they wait
 
 panel="-case panel -panel_columns 12 -dt 2e-6 -dem_local_damping 0.7"
 paper="-ns_continuity solenoidal -coupling drag -sph_operators paper -sph_laplacian_eta 0.1"
@@ -20,10 +21,16 @@ on_ranks() {
 }
 
 # bitwise NAME END EVERY options...
+compared=()
 bitwise() {
+  local n
+  compared+=("$1")
+  for n in 1 2 4; do beside on_ranks "$1" "$n" "${@:2}"; done
+}
+
+# compare NAME
+compare() {
   local name=$1 n
-  shift
-  for n in 1 2 4; do on_ranks "$name" "$n" "$@"; done
   for n in 2 4; do
     "$SUPPORT/compare_results" "$name-1.h5" "$name-$n.h5" || fail "$name: 1 and $n ranks"
     expect_same_results "$name-1.h5" "$name-$n.h5" /history/load /history/load_total /history/kinetic_energy \
@@ -53,9 +60,14 @@ agree() {
   # dataset over all discs and snapshots, relative to the largest change of that dataset since the start. Longer
   # runs part: discs under friction are chaotic, and whatever distinguishes two runs grows tenfold in some 100 steps.
   implicit="-pressure implicit -pressure_ksp_rtol 1e-8 -neighbors_skin 2e-3 -particles_balance 1"
-  for n in 1 2 4; do on_ranks ns-implicit "$n" 4e-4 1e-4 -fluid ns $paper $implicit; done
-  for n in 1 4; do on_ranks darcy-implicit "$n" 4e-4 1e-4 -fluid darcy $documented $implicit; done
-  for n in 1 4; do on_ranks documented "$n" 4e-4 1e-4 -fluid ns -ns_continuity averaged $documented $implicit; done
+  for n in 1 2 4; do beside on_ranks ns-implicit "$n" 4e-4 1e-4 -fluid ns $paper $implicit; done
+  for n in 1 4; do beside on_ranks darcy-implicit "$n" 4e-4 1e-4 -fluid darcy $documented $implicit; done
+  for n in 1 4; do beside on_ranks documented "$n" 4e-4 1e-4 -fluid ns -ns_continuity averaged $documented $implicit; done
+  # the comparison can fail: the same panel with a slightly different damping, which changes it by some percent
+  beside on_ranks same 1 4e-4 1e-4 -fluid none
+  beside on_ranks other 1 4e-4 1e-4 -fluid none -dem_local_damping 0.7000001
+  together
+  for name in "${compared[@]}"; do compare "$name"; done
   agree ns-implicit 2
   agree ns-implicit 4
   agree darcy-implicit 4
@@ -63,9 +75,6 @@ agree() {
   agree documented 4 pressure fluid_velocity relative_velocity velocity position porosity stress
 }
 
-# The comparison can fail: the same panel with a slightly different damping, which changes it by some percent.
-on_ranks same 1 4e-4 1e-4 -fluid none
-on_ranks other 1 4e-4 1e-4 -fluid none -dem_local_damping 0.7000001
 if "$SUPPORT/compare_results" same-1.h5 other-1.h5 2>differ.txt; then fail "compare_results sees no difference"; fi
 expect_match 'disc [0-9]+, component' differ.txt
 if "$SUPPORT/compare_results" same-1.h5 other-1.h5 1e-7 2>differ.txt; then fail "compare_results has no limit"; fi

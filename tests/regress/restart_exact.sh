@@ -3,6 +3,7 @@
 # A run that goes on from a checkpoint has the same bits as the one that wrote it and went on: all three kinds of
 # water, explicit and implicit, on 1, 2 and 4 ranks; dry and explicit runs on another number of ranks, too.
 . "$SOURCE_DIR/tests/support/regress.sh"
+abreast=2 # several ranks each, which compute more than they wait
 
 # Dashpots and damping see half-step velocities, and friction on plates has a memory: nothing can be recomputed.
 panel="-case panel -panel_columns 7 -dt 2e-6 -dem_local_damping 0.4 -dem_c_n 300 -dem_c_s 150 -neighbors_skin 0.01"
@@ -45,33 +46,43 @@ same_bits() {
 
 # The result file of the uninterrupted run names its run, so the restarted one must be given its copy. The run of
 # NAME.first is another one: it has no result file, and its checkpoint is only good for the bits of the discs.
-bitwise() {
-  local name=$1 ranks=$2
-  shift 2
-  for n in $ranks; do
-    start "$name" "$n" "$@"
-    restart "$name" "$n" "$name.pgc.1" "$@"
-    same_bits "$name"
-  done
+whole() { # NAME RANKS options...
+  start "$@"
+  restart "$1" "$2" "$1.pgc.1" "${@:3}"
+  same_bits "$1"
 }
+bitwise() { # NAME RANKS... -- options...: folders NAME-RANKS
+  local name=$1 ranks=()
+  while shift && [ "$1" != -- ]; do ranks+=("$1"); done
+  shift
+  for n in "${ranks[@]}"; do beside within "$name-$n" whole "$name" "$n" "$@"; done
+}
+# taken FOLDER NAME: the files of a run into the present folder
+taken() { cp "$1/$2".{h5,csv,pgc,pgc.1,first} .; }
 
 # shellcheck disable=SC2086
 {
-  bitwise dry '1 2 4' -fluid none
-  bitwise darcy-explicit '1 4' -fluid darcy -pressure explicit -coupling drag_and_pressure -fluid_every 2
-  bitwise ns-explicit '1 2' -fluid ns $paper
-  bitwise darcy '1 2' -fluid darcy $documented -fluid_every 5
-  bitwise ns '1 2 4' -fluid ns -ns_continuity averaged $documented -fluid_every 5 -porosity_rate sampled
-
-  # Other numbers of ranks (the last run of each name was on 4 or 2).
-  for n in 1 2; do
-    restart dry "$n" dry.pgc.1 -fluid none
-    same_bits dry
-  done
-  restart ns-explicit 4 ns-explicit.pgc.1 -fluid ns $paper
-  same_bits ns-explicit
+  bitwise dry 1 2 4 -- -fluid none
+  bitwise darcy-explicit 1 4 -- -fluid darcy -pressure explicit -coupling drag_and_pressure -fluid_every 2
+  bitwise ns-explicit 1 2 -- -fluid ns $paper
+  bitwise darcy 1 2 -- -fluid darcy $documented -fluid_every 5
+  bitwise ns 1 2 4 -- -fluid ns -ns_continuity averaged $documented -fluid_every 5 -porosity_rate sampled
+  together
 }
 
+# Other numbers of ranks.
+other() { # FOLDER NAME RANKS options...
+  taken "../$1" "$2"
+  restart "$2" "$3" "$2.pgc.1" "${@:4}"
+  same_bits "$2"
+}
+for n in 1 2; do beside within dry-4-on-$n other dry-4 dry $n -fluid none; done
+# shellcheck disable=SC2086
+beside within ns-explicit-2-on-4 other ns-explicit-2 ns-explicit 4 -fluid ns $paper
+together
+
+taken dry-4 dry
+taken ns-4 ns
 # From the third on nothing was written into results: the same discs at the end, and a new result file.
 rm -f restarted.*
 # shellcheck disable=SC2086

@@ -1,5 +1,4 @@
 # timeout: 300
-# processors: 2
 # Impermeable sides with the two-phase projection: a box of rigid walls full of grains and water stays calm, a panel with
 # all sides impermeable lasts (both once blew up, at 1.4 ms and at 0.11 mm), and a side that nothing holds is warned of.
 . "$SOURCE_DIR/tests/support/regress.sh"

@@ -1,4 +1,3 @@
-# processors: 2
 # timeout: 120
 # -study mms: orders of the operators and of the solved pressure.
 . "$SOURCE_DIR/tests/support/regress.sh"

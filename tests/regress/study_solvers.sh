@@ -1,4 +1,3 @@
-# processors: 2
 # timeout: 300
 # porograin-study: the table of solvers, its files, the same on 1, 2 and 4 ranks, and counts known from an independent
 # program for the same systems.

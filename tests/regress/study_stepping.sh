@@ -1,4 +1,3 @@
-# processors: 2
 # timeout: 120
 # -study stepping: a solver that goes along does in each step what a run with that solver does.
 . "$SOURCE_DIR/tests/support/regress.sh"

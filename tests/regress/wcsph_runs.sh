@@ -1,4 +1,3 @@
-# processors: 2
 # timeout: 180
 # The weakly compressible liquid by the program: shipped files, the same bits on 1, 2 and 3 ranks, results that ParaView
 # opens; what is wrong with a liquid is said by name, and nothing is written.
