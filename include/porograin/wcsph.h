@@ -118,6 +118,9 @@ PETSC_EXTERN PetscErrorCode PgWcsphGetLiquid(PgWcsph wcsph, PetscReal *rho_0, Pe
                                              PetscReal gravity[2]);
 PETSC_EXTERN PetscErrorCode PgWcsphGetState(PgWcsph wcsph, PgWcsphState *state);
 PETSC_EXTERN PetscErrorCode PgWcsphGetReach(PgWcsph wcsph, PetscReal *reach); /* of the kernel [m]; after SetSpacing */
+/* Length epsilon by which a face that ends at a wall is too short for the pressure, T73: the liquid pushes a piston that
+   fills a channel of height H with p (H - 2 epsilon), and the walls beside it with the rest [m]. After SetSpacing. */
+PETSC_EXTERN PetscErrorCode PgWcsphGetEdge(PgWcsph wcsph, PetscReal *epsilon);
 
 /* ---- what has become of it ---- */
 

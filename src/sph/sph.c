@@ -48,12 +48,13 @@ PetscErrorCode PgSphSetFromOptions(PgSph sph)
                          0.0, 1.0, &sph->eta, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-sph_smoothing", "smoothing length h over the radius of the disc", "1",
                          1.5, 6.0, &sph->smoothing, NULL));
-  PetscCall(PgOptionString(PetscOptionsObject, "-sph_kernel", "smoothing kernel, Eq. 63: cubic_spline", name,
-                           sizeof name, NULL));
+  PetscCall(PgOptionString(PetscOptionsObject, "-sph_kernel",
+                           "smoothing kernel: cubic_spline, Eq. 63, or quintic_spline, which reaches half as far again",
+                           name, sizeof name, NULL));
   PetscOptionsEnd();
   PetscCall(PgKernelFind(name, &sph->kernel));
   PgInputCheck(sph->kernel, PgParticlesComm(sph->particles),
-               "option -sph_kernel: '%s' is not known; known is cubic_spline", name);
+               "option -sph_kernel: '%s' is not known; known are cubic_spline and quintic_spline", name);
   PetscCall(PetscStrcmp(sph->kernel->name, "cubic_spline", &sph->cubic));
   sph->gradient_kind  = (PgSphOperators)gradient;
   sph->laplacian_kind = (PgSphOperators)laplacian;

@@ -140,6 +140,21 @@ PetscErrorCode PgWcsphGetReach(PgWcsph w, PetscReal *reach)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgWcsphGetEdge(PgWcsph w, PetscReal *epsilon)
+{
+  const PetscInt reach = (PetscInt)PetscCeilReal(w->kernel->support * w->smoothing);
+
+  PetscFunctionBeginUser;
+  *epsilon = 0.0;
+  for (PetscInt m = 1; m <= reach; m++)
+    for (PetscInt n = 1; n <= reach; n++) {
+      const PetscReal r = PetscSqrtReal((PetscReal)(m * m + n * n)), h = w->smoothing;
+      *epsilon -= 2.0 * (PetscReal)(m * m * n) * w->kernel->dw(r / h) / (h * h * h * r);
+    }
+  *epsilon *= w->dx;
+  PetscFunctionReturn(0);
+}
+
 /* ---- settings ---- */
 
 static PetscErrorCode BeforeSetUp(PgWcsph w)

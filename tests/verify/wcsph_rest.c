@@ -34,10 +34,10 @@ static void Choices(void **state)
   for (int k = 0; k < 5; k++) {
     char      all[256], quantity[128];
     PetscReal l2, most;
-    (void)snprintf(all, sizeof all, COMMON "-wcsph_cells 20 -end_time 1 %s", options[k]);
+    (void)snprintf(all, sizeof all, COMMON "-wcsph_cells 20 -end_time 0.5 %s", options[k]);
     (void)snprintf(quantity, sizeof quantity, "column of 20 particles, %s: error of p, L2", what[k]);
     LiquidErrors("wcsph_hydrostatic", all, &l2, &most);
-    VerifyRange("wcsph_hydrostatic", quantity, 0.0, 1e-2, l2, "0.33 to 0.5 %, most of it at the surface");
+    VerifyRange("wcsph_hydrostatic", quantity, 0.0, 1e-2, l2, "0.34 to 0.5 %, most of it at the surface");
   }
 }
 
@@ -119,8 +119,21 @@ static void DampedStart(void **state)
               "measured 5e-3; the column is shorter by rho g H/(2 K) = 0.3 %");
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(Column), cmocka_unit_test(Choices), cmocka_unit_test(Tank),
-                                          cmocka_unit_test(Ringing), cmocka_unit_test(DampedStart)};
+/* Particles off their lattice: the operators are not exact there. */
+static void Disorder(void **state)
+{
+  PetscReal l2, most;
+
+  (void)state;
+  LiquidErrors("wcsph_hydrostatic", COMMON "-wcsph_cells 20 -wcsph_jitter 0.1 -end_time 2", &l2, &most);
+  VerifyReport("wcsph_hydrostatic",
+               "column of 20 particles, displaced by up to 0.1 dx at the start: error of p after 2 s, L2", l2,
+               "it settles and rings");
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(Column),      cmocka_unit_test(Choices),
+                                          cmocka_unit_test(Tank),        cmocka_unit_test(Ringing),
+                                          cmocka_unit_test(DampedStart), cmocka_unit_test(Disorder)};
 
 int main(int argc, char *argv[])
 {
