@@ -141,6 +141,7 @@ struct PgFem_s {
   PetscInt  *p_index; /* (size) number among the pressures, -1 */
   KSP        ksp;
   PetscBool  singular; /* a uniform pressure is free */
+  PetscBool  stiff;    /* the skeleton hardly changes its volume: no multigrid for it */
   PgFemStats stats;
 
   /* results: from nodes and cells of this rank to its share of the file's order */

@@ -1,6 +1,8 @@
 /* The solver. By default GMRES with a block triangular preconditioner: one multigrid cycle for the displacements, one
-   for an approximate Schur complement, S + J + theta dt D + alpha^2/M times the mass matrix (T60). */
+   for an approximate Schur complement, S + J + theta dt D + alpha^2/M times the mass matrix (T60). Multigrid cannot
+   handle a skeleton that hardly changes its volume: its block is factorised then. */
 #include "femimpl.h"
+#include <string.h>
 
 /* Options that stand for our defaults: set where the user has said nothing, and taken back when they have been read. */
 static const char *const defaults[][2] = {
@@ -22,25 +24,65 @@ static const char *const defaults[][2] = {
     {"-up_fieldsplit_p_pc_type", "gamg"},
 #endif
 };
-enum { DEFAULTS = sizeof defaults / sizeof *defaults };
+/* Instead of those above when the skeleton keeps its volume. */
+static const char *const stiff_defaults[][2] = {
+#if defined(PETSC_HAVE_MUMPS)
+    {"-up_fieldsplit_u_pc_type", "cholesky"},
+    {"-up_fieldsplit_u_pc_factor_mat_solver_type", "mumps"},
+#endif
+    {NULL, NULL}};
+enum {
+  DEFAULTS = sizeof defaults / sizeof *defaults,
+  STIFF    = sizeof stiff_defaults / sizeof *stiff_defaults - 1,
+  ALL      = DEFAULTS + STIFF
+};
 
-static PetscErrorCode PushDefaults(PetscBool pushed[DEFAULTS])
+/* lambda over G from which the block of displacements is factorised, nu = 0.484: cycles of multigrid take twice the
+   iterations there, and grow with the mesh beyond. */
+#define STIFF_RATIO 30.0
+
+static PetscErrorCode FindStiff(PgFem fem)
+{
+  PetscReal mine = 0.0, all;
+
+  PetscFunctionBeginUser;
+  for (PetscInt cell = 0; cell < fem->cells; cell++) {
+    PgFemCoefficients c;
+    PetscCall(PgFemCoefficientsOf(fem, cell, 1.0, 1.0, &c));
+    mine = PetscMax(mine, c.lambda / c.G);
+  }
+  PetscCallMPI(MPI_Allreduce(&mine, &all, 1, MPIU_REAL, MPIU_MAX, fem->comm));
+  fem->stiff = (PetscBool)(all > STIFF_RATIO);
+  PetscFunctionReturn(0);
+}
+
+/* Option k of both lists; NULL: not in this run. */
+static const char *const *Default(const PgFem fem, int k)
+{
+  if (k >= DEFAULTS) return fem->stiff ? stiff_defaults[k - DEFAULTS] : NULL;
+  for (int s = 0; fem->stiff && s < STIFF; s++)
+    if (strcmp(defaults[k][0], stiff_defaults[s][0]) == 0) return NULL;
+  return defaults[k];
+}
+
+static PetscErrorCode PushDefaults(const PgFem fem, PetscBool pushed[ALL])
 {
   PetscFunctionBeginUser;
-  for (int k = 0; k < DEFAULTS; k++) {
-    PetscBool given;
-    PetscCall(PetscOptionsHasName(NULL, NULL, defaults[k][0], &given));
+  for (int k = 0; k < ALL; k++) {
+    const char *const *option = Default(fem, k);
+    PetscBool          given  = PETSC_TRUE;
+    if (option) PetscCall(PetscOptionsHasName(NULL, NULL, option[0], &given));
     pushed[k] = (PetscBool)!given;
-    if (pushed[k]) PetscCall(PetscOptionsSetValue(NULL, defaults[k][0], defaults[k][1]));
+    if (pushed[k]) PetscCall(PetscOptionsSetValue(NULL, option[0], option[1]));
   }
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode PopDefaults(const PetscBool pushed[DEFAULTS])
+static PetscErrorCode PopDefaults(const PgFem fem, const PetscBool pushed[ALL])
 {
   PetscFunctionBeginUser;
-  for (int k = 0; k < DEFAULTS; k++)
-    if (pushed[k]) PetscCall(PetscOptionsClearValue(NULL, defaults[k][0]));
+  for (int k = 0; k < ALL; k++)
+    if (pushed[k]) PetscCall(PetscOptionsClearValue(NULL, Default(fem, k)[0]));
   PetscFunctionReturn(0);
 }
 
@@ -119,22 +161,25 @@ static PetscErrorCode MakeSolver(PgFem fem, KSP *ksp)
 static PetscErrorCode SetUpSolver(void *context)
 {
   PgFem     fem = (PgFem)context;
-  PetscBool pushed[DEFAULTS];
+  PetscBool pushed[ALL];
 
   PetscFunctionBeginUser;
-  PetscCall(PushDefaults(pushed));
+  PetscCall(PushDefaults(fem, pushed));
   if (!fem->ksp) PetscCall(MakeSolver(fem, &fem->ksp));
   PetscCall(KSPSetOperators(fem->ksp, fem->A, fem->A));
   PetscCall(KSPSetUp(fem->ksp));
   PetscCall(KSPSetUpOnBlocks(fem->ksp));
-  PetscCall(PopDefaults(pushed));
+  PetscCall(PopDefaults(fem, pushed));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgFemSolverBuild(PgFem fem)
 {
   PetscFunctionBeginUser;
-  if (!fem->ksp) PetscCall(AttachMotions(fem));
+  if (!fem->ksp) {
+    PetscCall(FindStiff(fem));
+    PetscCall(AttachMotions(fem));
+  }
   PetscCall(PgOptionsRead(fem->comm, "up_", SetUpSolver, PgFemProbeOptions, fem));
   PetscFunctionReturn(0);
 }
@@ -142,18 +187,18 @@ PetscErrorCode PgFemSolverBuild(PgFem fem)
 PetscErrorCode PgFemProbeOptions(void *context)
 {
   PgFem     fem = (PgFem)context;
-  PetscBool pushed[DEFAULTS];
+  PetscBool pushed[ALL];
   KSP       ksp;
 
   PetscFunctionBeginUser;
   if (!fem->A) PetscFunctionReturn(0);
   PetscCall(PetscOptionsHelpPrintedDestroy(&PetscOptionsHelpPrintedSingleton));
-  PetscCall(PushDefaults(pushed));
+  PetscCall(PushDefaults(fem, pushed));
   PetscCall(MakeSolver(fem, &ksp));
   PetscCall(KSPSetUp(ksp));
   PetscCall(KSPSetUpOnBlocks(ksp));
   PetscCall(KSPDestroy(&ksp));
-  PetscCall(PopDefaults(pushed));
+  PetscCall(PopDefaults(fem, pushed));
   PetscFunctionReturn(0);
 }
 

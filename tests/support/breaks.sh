@@ -52,6 +52,7 @@ up_footing ; src/fem/loads.c ; s/ds = (to - from) \* weight/ds = weight/ ; load 
 up_zones ; src/fem/system.c ; s/= PgFemStorage(m)/= 100.0 * PgFemStorage(m)/ ; water and grains a hundred times softer
 up_inertia ; src/fem/step.c ; s/- (1.0 - theta) \/ theta \* a;/- 0.98 * (1.0 - theta) \/ theta * a;/ ; old acceleration 2 % off in the trapezoidal rule
 up_solver ; src/fem/solver.c ; s/"-up_fieldsplit_u_pc_type", "hypre"/"-up_fieldsplit_u_pc_type", "jacobi"/ ; displacements preconditioned by Jacobi
+up_solver ; src/fem/solver.c ; s/STIFF_RATIO 30.0/STIFF_RATIO 3e9/ ; multigrid for the displacements of a skeleton that keeps its volume
 wcsph_energy ; src/wcsph/density.c ; s/PG_WCSPH_MIRROR ? 2\.0/PG_WCSPH_MIRROR ? 1.99/ ; volume of walls counts 0.5 % less than their pressure does
 wcsph_energy ; src/wcsph/density.c ; s/sum += share \* (w->weight/sum += 0.99 * share * (w->weight/ ; adjoint walls give 1 % of their volume to nobody
 wcsph_flows ; src/wcsph/forces.c ; s/(2\.0 \* w->mu/(2.01 * w->mu/ ; viscosity 0.5 % larger

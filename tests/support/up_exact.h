@@ -44,6 +44,14 @@ static inline PetscReal TerzaghiSettlement(PetscReal T)
   return 1.0 - sum;
 }
 
+/* The load that the water takes at first, and the settlement at first over that in the end, both without lateral strain:
+   p_0 = q alpha/(alpha^2 + M S), u_0/u_end = 1 - alpha p_0/q. Then p = p_0 times the series, and the settlement goes from
+   u_0 to u_end by its series, with the c_v of compressible constituents (Detournay & Cheng 1993). */
+static inline PetscReal TerzaghiFirst(const PgFemMaterial *m)
+{
+  return m->alpha / (m->alpha * m->alpha + ExactM(m) * ExactStorage(m));
+}
+
 /* Undrained Poisson's ratio and Skempton's B. */
 static inline void Undrained(const PgFemMaterial *m, PetscReal *nu_u, PetscReal *B)
 {

@@ -191,7 +191,53 @@ static void Seepage(void **state)
   }
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(ConstantStrain), cmocka_unit_test(Seepage)};
+/* A rigid plate presses a closed box of distorted cells, along x or y: one strain, one pressure, whatever the cells. */
+static void Plate(PgFemElement element, int along)
+{
+  static const char *const side[2][4]   = {{"left", "bottom", "top", "right"}, {"bottom", "left", "right", "top"}};
+  const GmshRectangle      mesh         = {6, 5, {1.4, 0.9}, 0.3, 41, 4};
+  const PgFemQuantity      displacement = along ? PG_FEM_DISPLACEMENT_Y : PG_FEM_DISPLACEMENT_X,
+                      across            = along ? PG_FEM_DISPLACEMENT_X : PG_FEM_DISPLACEMENT_Y;
+  const PetscReal zero = 0.0, force = -3e4, S = PgFemStorage(&material), alpha = material.alpha;
+  const PetscReal strain   = force / mesh.size[1 - along] / (PgFemConstrainedModulus(&material) + alpha * alpha / S);
+  PetscReal       worst[2] = {0.0, 0.0}, all[2], way;
+  PgFemNodes      nodes;
+  PgFem           fem;
+
+  GmshWrite(&mesh, "plate.msh");
+  CHECK(PgFemCreate(PETSC_COMM_WORLD, &fem));
+  CHECK(PgFemSetMeshFile(fem, "plate.msh"));
+  CHECK(PgFemSetElement(fem, element));
+  CHECK(PgFemSetMaterial(fem, NULL, &material));
+  CHECK(PgFemSetCondition(fem, side[along][0], displacement, &zero));
+  CHECK(PgFemSetCondition(fem, side[along][1], across, &zero));
+  CHECK(PgFemSetCondition(fem, side[along][2], across, &zero));
+  CHECK(PgFemSetCondition(fem, side[along][3], along ? PG_FEM_PLATE_Y : PG_FEM_PLATE_X, &force));
+  CHECK(PgFemSetUp(fem));
+  CHECK(PgFemStep(fem, 10.0));
+  CHECK(PgFemGetPlate(fem, side[along][3], &way));
+  CHECK(PgFemGetNodes(fem, &nodes));
+  for (PetscInt i = 0; i < nodes.count; i++) {
+    const PetscReal u = nodes.displacement[2 * i + along] / (strain * mesh.size[along]);
+    worst[0]          = PetscMax(worst[0], PetscAbsReal(u - nodes.x[2 * i + along] / mesh.size[along]));
+    worst[1]          = PetscMax(worst[1], PetscAbsReal(nodes.pressure[i] / (-alpha * strain / S) - 1.0));
+  }
+  CHECK(MPI_Allreduce(worst, all, 2, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  /* rounding of 1e-16 times the condition of the matrix, some 1e4 for so few cells */
+  assert_true(all[0] < 1e-11 && all[1] < 1e-11);
+  assert_true(PetscAbsReal(way / (strain * mesh.size[along]) - 1.0) < 1e-11);
+  CHECK(PgFemDestroy(&fem));
+}
+
+static void Plates(void **state)
+{
+  (void)state;
+  Plate(PG_FEM_Q1Q1, 1);
+  Plate(PG_FEM_Q2Q1, 0);
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(ConstantStrain), cmocka_unit_test(Seepage),
+                                          cmocka_unit_test(Plates)};
 
 int main(int argc, char *argv[])
 {

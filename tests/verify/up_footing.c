@@ -169,6 +169,21 @@ static void Locking(void **state)
                    8 << k);
     VerifyRange("up_footing", name, 0.05, 0.7, settlement[k] / reference, "volume kept in each cell leaves no bending");
   }
+  for (int k = 0; k < 2; k++) {
+    static const char *const nu[2]     = {"0.48", "0.4999"};
+    static const PetscReal   low_q1[2] = {0.97, 0.3}, high_q1[2] = {0.99, 0.5};
+    char                     options[64], name[128];
+    (void)snprintf(options, sizeof options, "-up_poisson %s -up_element q2q1", nu[k]);
+    Case(32, options, &reference, &low, &high);
+    Case(16, options, &settlement[0], &low, &high);
+    (void)snprintf(options, sizeof options, "-up_poisson %s", nu[k]);
+    Case(32, options, &settlement[1], &low, &high);
+    (void)snprintf(name, sizeof name, "stiff skeleton, nu %s: settlement over Q2-Q1 32 x 32, Q2-Q1 16 x 16", nu[k]);
+    VerifyValue("up_footing", name, 1.0, settlement[0] / reference, 0.0, 0.01, "the edge of the strip, some h^1.5");
+    (void)snprintf(name, sizeof name, "stiff skeleton, nu %s: settlement over Q2-Q1 32 x 32, Q1-Q1 32 x 32", nu[k]);
+    VerifyRange("up_footing", name, low_q1[k], high_q1[k], settlement[1] / reference,
+                "no water, but the skeleton itself locks the bilinear displacements: use Q2-Q1");
+  }
   Case(32, "-up_stabilisation 0", &settlement[0], &low, &high);
   VerifyRange("up_footing", "largest p/q one strip deep and more, 32 x 32, Q1-Q1 not stabilised", 0.7, 2.0, high,
               "alternates from node to node about 0.5");
