@@ -65,11 +65,11 @@ PetscErrorCode PgCaseGetArrays(const PgCaseSetup *setup, PgCaseArrays *arrays)
   PetscCall(PgParticlesGetArray(setup->particles, PG_RADIUS, &arrays->radius));
   PetscCall(PgParticlesFindField(setup->particles, "plate", &field));
   PetscCall(PgParticlesGetArray(setup->particles, field, &arrays->plate));
+  PetscCall(PgParticlesFindField(setup->particles, "initial_porosity", &field));
+  if (field >= 0) PetscCall(PgParticlesGetArray(setup->particles, field, &arrays->porosity));
   if (!setup->pore) PetscFunctionReturn(0);
   PetscCall(PgParticlesFindField(setup->particles, "side", &field));
   PetscCall(PgParticlesGetArray(setup->particles, field, &arrays->side));
-  PetscCall(PgParticlesFindField(setup->particles, "initial_porosity", &field));
-  PetscCall(PgParticlesGetArray(setup->particles, field, &arrays->porosity));
   PetscFunctionReturn(0);
 }
 

@@ -189,9 +189,8 @@ static PetscErrorCode ReadBoundaries(PetscOptionItems *PetscOptionsObject, Packi
                    "1", 0, 10, &c->side_distance, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-packing_top_velocity", "velocity of the top plate or wall, downward < 0",
                          "m/s", -1e3, 1e3, &c->top_velocity, &c->top_set));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-packing_porosity",
-                         "initial porosity for the water; default: of the discs in the box", "1", 0.01, 0.98,
-                         &c->porosity, &c->porosity_set));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-packing_porosity", "initial porosity; default: of the discs in the box",
+                         "1", 0.01, 0.98, &c->porosity, &c->porosity_set));
   for (int s = 0; s < PG_SIDE_COUNT; s++)
     PgInputCheck(!(c->plates & c->walls & 1U << s), PetscOptionsObject->comm,
                  "options -packing_plates and -packing_walls: side %s cannot be both", side_words[s]);
@@ -362,15 +361,19 @@ static PetscErrorCode Refuse(MPI_Comm comm, const PackingCase *c, const char fro
   PetscFunctionReturn(0);
 }
 
-/* Porosity for the water where the user has given none. */
-static PetscErrorCode BulkPorosity(MPI_Comm comm, const PgBox *box, const PgPackingFindings *f, PetscReal *porosity)
+/* Porosity where the user has given none. Without water it is only to be looked at: 0, not known, where it is none. */
+static PetscErrorCode BulkPorosity(MPI_Comm comm, const PgBox *box, const PgPackingFindings *f, PetscBool water,
+                                   PetscReal *porosity)
 {
   const PetscReal area = (box->high[0] - box->low[0]) * (box->high[1] - box->low[1]);
+  PetscBool       usable;
 
   PetscFunctionBeginUser;
   *porosity = 1 - (f->area - f->common_area) / area;
+  usable    = (PetscBool)(*porosity >= 0.01 && *porosity <= 0.98);
+  if (!usable && !water) *porosity = 0.0;
   PgInputCheck(
-      *porosity >= 0.01 && *porosity <= 0.98, comm,
+      usable || !water, comm,
       "the discs leave a porosity of %g in the box, with which water cannot be computed: give -packing_porosity",
       (double)*porosity);
   PetscFunctionReturn(0);
@@ -480,7 +483,8 @@ static PetscErrorCode Setup(void *context, PgCaseSetup *setup)
     PetscCall(PgPackingInspect(setup->comm, from, &packing, &box, &f));
     PetscCall(Report(setup->comm, &packing, &box, &f));
     PetscCall(Refuse(setup->comm, c, from, &f));
-    if (setup->pore && !c->porosity_set) PetscCall(BulkPorosity(setup->comm, &box, &f, &c->porosity));
+    if (!c->porosity_set)
+      PetscCall(BulkPorosity(setup->comm, &box, &f, (PetscBool)(setup->pore != NULL), &c->porosity));
   }
   PetscCall(MakeDiscs(c, &packing, &box, f.radius_mean, setup));
   if (c->end_time > 0) setup->end_time = c->end_time;

@@ -90,20 +90,51 @@ static PetscErrorCode AddRow(PgSimulation sim)
   PetscFunctionReturn(0);
 }
 
+/* Porosity of a run without water: discs keep their areas while the neighbourhood grows by the volumetric strain. Within
+   the bounds of the porosity that water sees. */
+static PetscErrorCode Porosity(PgSimulation sim, PetscBool *known)
+{
+  const PetscReal least = 0.01, most = 0.98;
+  PetscReal      *start, largest     = 0.0;
+  PetscInt        first, count;
+
+  PetscFunctionBeginUser;
+  *known = PETSC_FALSE;
+  if (sim->porosity_start < 0) PetscFunctionReturn(0);
+  PetscCall(PgParticlesGetArray(sim->particles, sim->porosity_start, &start));
+  PetscCall(PgParticlesToIdOrder(sim->particles, 1, start, sim->porosity));
+  PetscCall(PgParticlesGetIdRange(sim->particles, &first, &count));
+  for (PetscInt i = 0; i < count; i++) {
+    const PetscReal grown = 1.0 + sim->volumetric[i];
+    PetscReal       n     = least;
+    largest               = PetscMax(largest, sim->porosity[i]);
+    if (grown > 0.0) n = 1.0 - (1.0 - sim->porosity[i]) / grown;
+    sim->porosity[i] = PetscMax(least, PetscMin(most, n));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  *known = (PetscBool)(largest > 0.0);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgMonitorSnapshot(PgSimulation sim, PgOutput output)
 {
+  PetscBool porosity;
+
   PetscFunctionBeginUser;
   if (!output) PetscFunctionReturn(0);
   PetscCall(PgStagePush(PG_STAGE_OUTPUT));
   PetscCall(PgDemComputeObservables(sim->dem));
   PetscCall(PgStrainCompute(sim->strain, sim->effective, sim->volumetric));
+  PetscCall(Porosity(sim, &porosity));
   {
-    const PgExtraField extra[2] = {
+    const PgExtraField extra[3] = {
         {"effective_strain", 1, "1", "nominal effective strain sqrt(2/3 e:e) of the neighbourhood at the start",
          sim->effective},
         {"volumetric_strain", 1, "1", "nominal volumetric strain det F - 1 of the neighbourhood at the start",
-         sim->volumetric}};
-    PetscCall(PgOutputSnapshot(output, sim->time, 2, extra));
+         sim->volumetric},
+        {"porosity", 1, "1", "porosity n of the neighbourhood, 1 - (1 - n_0)/(1 + volumetric strain): without water",
+         sim->porosity}};
+    PetscCall(PgOutputSnapshot(output, sim->time, porosity ? 3 : 2, extra));
   }
   PetscCall(PgStagePop());
   PetscFunctionReturn(0);

@@ -35,7 +35,7 @@ static const PgOptionRule rules[] = {
     {"-packing_plate_distance", "-packing_plates", "there are no plates"},
     {"-packing_side_distance", "-fluid darcy|ns", "only water sees these sides"},
     {"-bed_layer_radius", "-bed_layer_rows", "there is one layer only"},
-    {"-packing_porosity", "-fluid darcy|ns", "only water sees a porosity"},
+    {"-packing_porosity", "-fluid darcy|ns or -output", "only water and result files have a porosity"},
     {"-ns_*", "-fluid ns", "it belongs to the Navier-Stokes scheme"},
     {"-permeability", "-fluid darcy", "the Navier-Stokes scheme has a drag law (-ns_drag) in its place"},
     {"-permeability_law", "-fluid darcy", "the Navier-Stokes scheme has a drag law (-ns_drag) in its place"},

@@ -20,6 +20,7 @@ PetscErrorCode PgSimulationCreate(MPI_Comm comm, PgSimulation *simulation)
   sim->guard_every                                          = 200;
   sim->checkpoint_time                                      = -1.0;
   sim->checkpoint_step                                      = -1;
+  sim->porosity_start                                       = -1;
   sim->created                                              = MPI_Wtime();
   PetscCall(PgParticlesCreate(comm, &sim->particles));
   PetscCall(PgNeighborsCreate(sim->particles, &sim->neighbors));
@@ -125,6 +126,18 @@ static PetscErrorCode OutputOptions(PgSimulation sim, PetscOptionItems *PetscOpt
   PetscFunctionReturn(0);
 }
 
+/* Without water nobody else keeps the porosity that snapshots start from. */
+static PetscErrorCode KeepPorosity(PgSimulation sim)
+{
+  const PgFieldInfo info = {"initial_porosity", 1, "1", "porosity at the start; 0: not known",
+                            PG_FIELD_MIGRATE | PG_FIELD_RESTART};
+
+  PetscFunctionBeginUser;
+  if (sim->output_file[0] || sim->checkpoint_file[0] || sim->restart_file[0])
+    PetscCall(PgParticlesRegisterField(sim->particles, &info, &sim->porosity_start));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgSimulationSetFromOptions(PgSimulation sim)
 {
   PetscFunctionBeginUser;
@@ -156,6 +169,8 @@ PetscErrorCode PgSimulationSetFromOptions(PgSimulation sim)
     PetscCall(PgPoreSetFromOptions(sim->pore));
     PetscCall(PgOptionsBelongTo(NULL));
     sim->setup.pore = sim->pore;
+  } else {
+    PetscCall(KeepPorosity(sim));
   }
   PetscFunctionReturn(0);
 }
@@ -349,7 +364,7 @@ PetscErrorCode PgSimulationSetUp(PgSimulation sim)
   PetscCall(PgParticlesGetIdRange(sim->particles, &start, &ids));
   if (sim->output_file[0] ||
       sim->checkpoint_file[0]) { /* 300 bytes a disc that a run without snapshots does not need */
-    PetscCall(PetscMalloc2(ids, &sim->effective, ids, &sim->volumetric));
+    PetscCall(PetscMalloc3(ids, &sim->effective, ids, &sim->volumetric, sim->pore ? 0 : ids, &sim->porosity));
     PetscCall(PgStrainCreate(sim->particles, sim->neighbors, &sim->strain)); /* from the lists of the start */
   }
   if (sim->setup.restart) {
@@ -397,7 +412,7 @@ PetscErrorCode PgSimulationDestroy(PgSimulation *simulation)
   if (!sim) PetscFunctionReturn(0);
   PetscCall(PgOutputDestroy(&sim->output));
   PetscCall(PgStrainDestroy(&sim->strain));
-  PetscCall(PetscFree2(sim->effective, sim->volumetric));
+  PetscCall(PetscFree3(sim->effective, sim->volumetric, sim->porosity));
   PetscCall(PgColumnsDestroy(sim));
   PetscCall(PgPoreDestroy(&sim->pore));
   PetscCall(PgDemDestroy(&sim->dem));

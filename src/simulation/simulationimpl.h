@@ -65,6 +65,8 @@ struct PgSimulation_s {
   PetscInt       first_step, last_progress_step; /* of this program; of the last line */
   PetscInt       checkpoints;                    /* written by this program */
   PetscReal     *effective, *volumetric;         /* strain by id, scratch */
+  PetscReal     *porosity;                       /* by id, scratch; of runs without water */
+  PgField        porosity_start;                 /* -1: water has its own, or nobody asks for it */
 
   /* restart and end */
   char           case_name[64], fluid_name[16]; /* as checkpoints know them */

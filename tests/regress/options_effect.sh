@@ -112,7 +112,7 @@ said 'option -packing_aspect 2 has no effect without -packing_count: -packing_si
   'option -packing_second_share 0.2 has no effect without -packing_second_radius: there is one size of discs only' \
   'option -packing_plate_distance 0.3 has no effect without -packing_plates: there are no plates' \
   'option -packing_side_distance 1 has no effect with -fluid none (the default): only water sees these sides' \
-  'option -packing_porosity 0.2 has no effect with -fluid none (the default): only water sees a porosity' \
+  'option -packing_porosity 0.2 has no effect with -fluid none (the default), without -output: only water and result files have a porosity' \
   'option -plate_friction 0.1 has no effect in a run without plates: there is nothing that it belongs to'
 
 rolling='has no effect with -dem_contact_law hertz: only that law has a rolling resistance'

@@ -103,6 +103,20 @@ csv_column sweep.csv pressure_residual | awk 'NR > 1 && !($1 > 1e-6 && $1 < 10) 
 h5ls dry.h5/snapshots/000000 | awk '{ print $1 }' >names
 for name in position velocity rotation stress coordination_number effective_strain; do grep -qx $name names || fail "no $name"; done
 if grep -qx pressure names; then fail 'pressure in a dry run'; fi
+# Its porosity follows from the one at the start, which is the paper's, and from
+# the volumetric strain: discs keep their areas.
+[ "$(h5ls dry.h5/snapshots/000002 | awk '{ print $1 }' | paste -sd ' ')" = \
+  'angular_velocity coordination_number effective_strain id porosity position radius rotation stress velocity volumetric_strain' ] ||
+  fail "fields of a dry run: $(h5ls dry.h5/snapshots/000002)"
+[ "$(attribute dry.h5 /snapshots/000002/porosity unit)" = 1 ] || fail 'unit of the porosity'
+for k in 0 2; do
+  values dry.h5 /snapshots/00000$k/porosity >n$k
+  values dry.h5 /snapshots/00000$k/volumetric_strain >strain$k
+done
+[ "$(sort -u n0 | awk '{ printf "%.4f ", $1 }')" = '0.0931 0.0945 0.1025 ' ] || fail "porosities at the start: $(sort -u n0)"
+# values have 17 digits; (1 - n)(1 + strain) is the same twice but for rounding
+paste n0 n2 strain2 | awk '{ d = (1 - $2)*(1 + $3) - (1 - $1); if (d > 1e-15 || d < -1e-15) bad = 1; if ($1 != $2) moved++ }
+  END { exit bad || moved < 20 }' || fail 'porosity of a dry run'
 
 # ---- dumped systems ----
 # A symmetric matrix with a row for each disc and 18 neighbours for most; the solution to the tolerance of the solver.
