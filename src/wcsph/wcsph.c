@@ -1,5 +1,6 @@
 /* The object: life, settings, what it shows. */
 #include "wcsphimpl.h"
+#include <math.h>
 
 static PetscErrorCode RegisterFields(PgWcsph w)
 {
@@ -168,8 +169,7 @@ PetscErrorCode PgWcsphSetSpacing(PgWcsph w, PetscReal dx)
 {
   PetscFunctionBeginUser;
   PetscCall(BeforeSetUp(w));
-  PgInputCheck(dx > 0.0 && dx < PETSC_MAX_REAL, w->comm, "the spacing of particles is %g m, it must be positive",
-               (double)dx);
+  PgInputCheck(isfinite(dx) && dx > 0.0, w->comm, "the spacing of particles is %g m, it must be positive", (double)dx);
   PetscCheck(!w->added, w->comm, PETSC_ERR_ORDER, "the spacing comes before the particles");
   w->dx = dx;
   PetscFunctionReturn(0);
@@ -187,11 +187,11 @@ PetscErrorCode PgWcsphSetLiquid(PgWcsph w, PetscReal rho_0, PetscReal mu, PetscR
 {
   PetscFunctionBeginUser;
   PetscCall(BeforeSetUp(w));
-  PgInputCheck(rho_0 > 0.0 && rho_0 < PETSC_MAX_REAL, w->comm, "the density of the liquid is %g kg/m3, it must be > 0",
+  PgInputCheck(isfinite(rho_0) && rho_0 > 0.0, w->comm, "the density of the liquid is %g kg/m3, it must be > 0",
                (double)rho_0);
-  PgInputCheck(mu >= 0.0 && mu < PETSC_MAX_REAL, w->comm, "the viscosity of the liquid is %g Pa s, it must be >= 0",
+  PgInputCheck(isfinite(mu) && mu >= 0.0, w->comm, "the viscosity of the liquid is %g Pa s, it must be >= 0",
                (double)mu);
-  PgInputCheck(c_0 > 0.0 && c_0 < PETSC_MAX_REAL, w->comm, "the speed of sound in the liquid is %g m/s, it must be > 0",
+  PgInputCheck(isfinite(c_0) && c_0 > 0.0, w->comm, "the speed of sound in the liquid is %g m/s, it must be > 0",
                (double)c_0);
   w->rho_0 = rho_0;
   w->mu    = mu;
@@ -248,7 +248,7 @@ PetscErrorCode PgWcsphSetKernel(PgWcsph w, const char name[], PetscReal smoothin
   PetscCall(BeforeSetUp(w));
   PetscCall(PgKernelFind(name, &kernel));
   PgInputCheck(kernel, w->comm, "kernel '%s' is not known; known are cubic_spline and quintic_spline", name);
-  PgInputCheck(smoothing >= 0.8 && smoothing <= 4.0, w->comm,
+  PgInputCheck(isfinite(smoothing) && smoothing >= 0.8 && smoothing <= 4.0, w->comm,
                "the smoothing length is %g spacings of particles, it must be between 0.8 and 4", (double)smoothing);
   w->kernel    = kernel;
   w->smoothing = smoothing;
@@ -259,8 +259,8 @@ PetscErrorCode PgWcsphSetDiffusion(PgWcsph w, PetscReal delta)
 {
   PetscFunctionBeginUser;
   PetscCall(BeforeSetUp(w));
-  PgInputCheck(delta >= 0.0 && delta <= 1.0, w->comm, "the diffusion of density is %g, it must be between 0 and 1",
-               (double)delta);
+  PgInputCheck(isfinite(delta) && delta >= 0.0 && delta <= 1.0, w->comm,
+               "the diffusion of density is %g, it must be between 0 and 1", (double)delta);
   w->delta = delta;
   PetscFunctionReturn(0);
 }
@@ -269,7 +269,7 @@ PetscErrorCode PgWcsphSetContact(PgWcsph w, PetscReal stiffness, PetscBool frict
 {
   PetscFunctionBeginUser;
   PetscCall(BeforeSetUp(w));
-  PgInputCheck(stiffness >= 0.0 && stiffness < PETSC_MAX_REAL, w->comm,
+  PgInputCheck(isfinite(stiffness) && stiffness >= 0.0, w->comm,
                "the stiffness of solids that meet is %g rho_0 c_0^2, it must be >= 0", (double)stiffness);
   w->contact  = stiffness;
   w->friction = friction;
@@ -279,7 +279,7 @@ PetscErrorCode PgWcsphSetContact(PgWcsph w, PetscReal stiffness, PetscBool frict
 PetscErrorCode PgWcsphSetDamping(PgWcsph w, PetscReal rate, PetscReal end)
 {
   PetscFunctionBeginUser;
-  PgInputCheck(rate >= 0.0 && rate < PETSC_MAX_REAL, w->comm, "the damping of the liquid is %g 1/s, it must be >= 0",
+  PgInputCheck(isfinite(rate) && rate >= 0.0, w->comm, "the damping of the liquid is %g 1/s, it must be >= 0",
                (double)rate);
   w->damping  = rate;
   w->damp_end = end;
