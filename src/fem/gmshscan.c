@@ -163,11 +163,14 @@ static PetscErrorCode ScanEntities(Scan *s)
   PetscFunctionReturn(0);
 }
 
-static PetscBool CheckEntity(Scan *s, long dimension, long tag)
+/* The first two numbers of a block of MSH 4 are an entity; 4.0 has its tag first. */
+static PetscBool CheckEntity(Scan *s, const long head[2])
 {
+  const long dimension = head[s->version == 40 ? 1 : 0], tag = head[s->version == 40 ? 0 : 1];
+
   for (long k = 0; k < s->entities; k++)
     if (s->entity[k][0] == dimension && s->entity[k][1] == tag) return PETSC_FALSE;
-  return BadNumber(s, "a block of elements is on entity %ld, which $Entities does not have", tag);
+  return BadNumber(s, "a block is on entity %ld, which $Entities does not have", tag);
 }
 
 /* ---- nodes ---- */
@@ -239,6 +242,7 @@ static PetscErrorCode ScanNodes(Scan *s)
         break;
       }
       count = number[3];
+      (void)CheckEntity(s, number);
       if (number[2]) (void)Bad(s, "parametric nodes are not known here");
     }
     if (s->reason[0] || TakeNodes(s, count)) break;
@@ -324,14 +328,15 @@ static PetscErrorCode TakeElementLine(Scan *s)
 
 static PetscErrorCode ScanElements(Scan *s)
 {
-  long number[4] = {-1, -1, -1, -1}, all, left;
+  long number[4] = {-1, -1, -1, -1}, all, left, blocks;
 
   PetscFunctionBeginUser;
   if (Find(s, "$Elements")) PetscFunctionReturn(0);
   if (Head(s, s->version == 22 ? "i" : s->version == 40 ? "ll" : "llll", number)) number[0] = number[1] = -1;
   all = left = number[s->version == 22 ? 0 : 1];
+  blocks     = number[0];
   if (all < 1 || all > s->most) (void)Bad(s, "no such number of elements can be in the file");
-  while (left > 0 && !s->reason[0]) {
+  while ((s->version == 22 ? left > 0 : blocks-- > 0) && !s->reason[0]) {
     const PetscBool lines = (PetscBool)(s->version == 22 && !s->binary);
     long            count = 1, type = 0, tags = 0;
     if (!lines && Take(s, s->version == 22 ? "iii" : "iiil", number, NULL)) {
@@ -343,16 +348,16 @@ static PetscErrorCode ScanElements(Scan *s)
       count = number[1];
       tags  = number[2];
     } else if (!lines) {
-      const PetscBool old = (PetscBool)(s->version == 40);
-      type                = number[2];
-      count               = number[3];
-      (void)CheckEntity(s, number[old ? 1 : 0], number[old ? 0 : 1]);
+      type  = number[2];
+      count = number[3];
+      (void)CheckEntity(s, number);
     }
     if (count < 0 || count > left) (void)Bad(s, "more elements than were said");
     for (long k = 0; k < count && !s->reason[0]; k++)
       PetscCall(lines ? TakeElementLine(s) : TakeElement(s, type, tags));
     left -= count;
   }
+  if (left) (void)Bad(s, "fewer elements than were said");
   PetscFunctionReturn(0);
 }
 

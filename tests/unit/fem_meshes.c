@@ -154,7 +154,9 @@ static void Text22(void **state)
 static void Text41(void **state)
 {
   static const Fault fault[] = {
-      {"\n2 1 3 3\n", "\n2 9 3 3\n", "a block of elements is on entity 9, which $Entities does not have"},
+      {"\n2 1 3 3\n", "\n2 9 3 3\n", "a block is on entity 9, which $Entities does not have"},
+      {"\n2 1 0 12\n", "\n2 7 0 12\n", "a block is on entity 7, which $Entities does not have"},
+      {"\n6 16 1 16\n", "\n5 16 1 16\n", "fewer elements than were said"},
       {"\n2 1 0 12\n", "\n2 1 1 12\n", "parametric nodes are not known here"},
       {"\n2 1 0 12\n", "\n2 1 0 11\n", "not a place of a node"},
       {"\n2 1 3 3\n", "\n2 1 3 -3\n", "more elements than were said"},
@@ -171,6 +173,16 @@ static void Text41(void **state)
 static void Int(FILE *f, int32_t value) { assert_int_equal(fwrite(&value, 4, 1, f), 1); }
 static void Long(FILE *f, int64_t value) { assert_int_equal(fwrite(&value, 8, 1, f), 1); }
 static void Double(FILE *f, double value) { assert_int_equal(fwrite(&value, 8, 1, f), 1); }
+
+/* Of node k of 12. */
+static void Place(FILE *f, int k)
+{
+  const int row = k / 4;
+
+  Double(f, k % 4);
+  Double(f, row);
+  Double(f, 0.0);
+}
 
 static FILE *Begin(const char file[], const char version[], int32_t one)
 {
@@ -192,9 +204,7 @@ static void Binary22(const char file[], int32_t last)
   (void)fprintf(f, "$Nodes\n12\n");
   for (int k = 0; k < 12; k++) {
     Int(f, k + 1);
-    Double(f, k % 4);
-    Double(f, k / 4);
-    Double(f, 0.0);
+    Place(f, k);
   }
   (void)fprintf(f, "\n$EndNodes\n$Elements\n16\n");
   for (int side = 0; side < 4; side++) {
@@ -227,7 +237,7 @@ static void Binary22(const char file[], int32_t last)
 static void Entity(FILE *f, int32_t tag, PetscBool boundary)
 {
   Int(f, tag);
-  for (int k = 0; k < 6; k++) Double(f, k / 3);
+  for (int k = 0; k < 6; k++) Double(f, k < 3 ? 0.0 : 1.0);
   Long(f, 1);
   Int(f, tag);
   Long(f, boundary ? 4 : 0);
@@ -254,9 +264,7 @@ static void Binary4(const char file[], PetscBool old, int64_t last)
   for (int k = 0; !old && k < 12; k++) Long(f, k + 1);
   for (int k = 0; k < 12; k++) {
     if (old) Int(f, k + 1);
-    Double(f, k % 4);
-    Double(f, k / 4);
-    Double(f, 0.0);
+    Place(f, k);
   }
   (void)fprintf(f, "\n$EndNodes\n$Elements\n");
   Long(f, 6);
