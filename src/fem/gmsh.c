@@ -17,10 +17,10 @@ static PetscBool ReadGroup(const char line[], PgFemGroup *group)
 
   if (!from || to == from || to - from - 1 >= PG_FEM_NAME || to - from == 1) return PETSC_FALSE;
   group->dimension = (PetscInt)strtol(line, &end, 10);
-  if (end == line || group->dimension < 0 || group->dimension > 3) return PETSC_FALSE;
+  if (end == line || *end != ' ' || group->dimension < 0 || group->dimension > 3) return PETSC_FALSE;
   line       = end;
   group->tag = (PetscInt)strtol(line, &end, 10);
-  if (end == line || *end != ' ' || group->tag <= 0) return PETSC_FALSE;
+  if (end == line || *end != ' ' || group->tag <= 0 || end + strspn(end, " ") != from) return PETSC_FALSE;
   if (to[1 + strspn(to + 1, " \t\r\n")]) return PETSC_FALSE;
   (void)snprintf(group->name, PG_FEM_NAME, "%.*s", (int)(to - from - 1), from + 1);
   return PETSC_TRUE;

@@ -123,6 +123,7 @@ static void Text22(void **state)
       {"\n2.2 0 8\n", "\n1.0 0 8\n", "MSH version 1 is not one of 2.2, 4.0, 4.1"},
       {"\n2.2 0 8\n", "\n2.2 0 4\n", "its numbers have 4 bytes, not 8"},
       {"\"left\"", "left", "physical name 4 of 6"},
+      {"2 1 \"lower", "2+1 \"lower", "physical name 5 of 6"},
       {"1 3 \"top\"", "1 3 \"left\"", "groups 3 and 4 of curves are both named 'left'"},
       {"2 2 \"upper part\"", "2 2 \"lower part\"", "groups 1 and 2 of surfaces are both named 'lower part'"},
       {"1 1 \"bottom\"", "1 1 \"base\"", "has no boundary 'bottom'; its boundaries: base, right, top, left"},
