@@ -92,6 +92,8 @@ PETSC_EXTERN PetscErrorCode PgResultReadAttribute(MPI_Comm comm, const char file
 
 /* Refuses a place where no checkpoint can be written, or where something else is. Collective. */
 PETSC_EXTERN PetscErrorCode PgCheckpointCheckPlace(MPI_Comm comm, const char file[]);
+/* Refuses the name of a file that a run with results in OUTPUT, FILE.h5, is going to write. Collective. */
+PETSC_EXTERN PetscErrorCode PgCheckpointCheckOutput(MPI_Comm comm, const char file[], const char output[]);
 /* Writes the state and all fields and variable-length data flagged PG_FIELD_RESTART; the former FILE becomes
    FILE.1. FILE is replaced only by one that is complete, sealed with a checksum, and on the disk. Collective. */
 PETSC_EXTERN PetscErrorCode PgCheckpointWrite(PgParticles particles, PgState state, const char file[]);

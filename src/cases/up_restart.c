@@ -1,7 +1,6 @@
 /* Checkpoints of the continuum, and going on from them. A run that goes on makes the same matrix from the same settings,
    and nothing but the state passes from one step to the next. */
 #include "up.h"
-#include <string.h>
 
 PetscErrorCode PgUpRestartOptions(PgUp up, PetscOptionItems *PetscOptionsObject)
 {
@@ -28,8 +27,7 @@ PetscErrorCode PgUpCheckPlaces(PgUp up, const char output[])
 
   PetscFunctionBeginUser;
   if (!run->checkpoint[0]) PetscFunctionReturn(0);
-  PgInputCheck(strcmp(run->checkpoint, output), up->comm, "options -checkpoint and -output name the same file '%s'",
-               output);
+  if (output[0]) PetscCall(PgCheckpointCheckOutput(up->comm, run->checkpoint, output));
   PetscCall(PgCheckpointCheckPlace(up->comm, run->checkpoint));
   PetscFunctionReturn(0);
 }

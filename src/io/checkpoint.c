@@ -52,6 +52,40 @@ PetscErrorCode PgCheckpointCheckPlace(MPI_Comm comm, const char file[])
   PetscFunctionReturn(0);
 }
 
+/* FILE without "./" in front. */
+static const char *Bare(const char file[])
+{
+  while (!strncmp(file, "./", 2)) file += 2;
+  return file;
+}
+
+/* Of a run with results in OUTPUT, a name that ends in .h5: whether it is going to write a file of this name. */
+static PetscBool IsResult(const char output[], const char file[])
+{
+  static const char *const endings[] = {".h5",      ".csv",        ".xmf",           ".csv.tmp",
+                                        ".xmf.tmp", ".h5.journal", "-postmortem.h5", "-failed.petsc"};
+  const size_t             stem      = strlen(output) > 3 ? strlen(output) - 3 : 0;
+
+  if (strncmp(output, file, stem) != 0) return PETSC_FALSE;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(endings); k++)
+    if (!strcmp(file + stem, endings[k])) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
+PetscErrorCode PgCheckpointCheckOutput(MPI_Comm comm, const char file[], const char output[])
+{
+  static const char *const endings[] = {"", ".1", ".tmp"};
+  char                     name[NAME_BYTES];
+
+  PetscFunctionBeginUser;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(endings); k++) {
+    PetscCall(PgCheckpointName(comm, file, endings[k], name, sizeof name));
+    PgInputCheck(!IsResult(Bare(output), Bare(name)), comm,
+                 "options -checkpoint and -output: both are going to write the file '%s'; choose another name", name);
+  }
+  PetscFunctionReturn(0);
+}
+
 /* ---- what is in it ---- */
 
 static PetscErrorCode WriteHeader(PgParticles particles, PgHdf *hdf)

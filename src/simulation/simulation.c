@@ -291,9 +291,7 @@ static PetscErrorCode SetUpOutput(PgSimulation sim)
   PetscFunctionBeginUser;
   PetscCall(PgColumnsSetUp(sim));
   if (sim->checkpoint_file[0]) {
-    PetscBool same;
-    PetscCall(PetscStrcmp(sim->checkpoint_file, sim->output_file, &same));
-    PgInputCheck(!same, sim->comm, "options -checkpoint and -output name the same file '%s'", sim->output_file);
+    if (sim->output_file[0]) PetscCall(PgCheckpointCheckOutput(sim->comm, sim->checkpoint_file, sim->output_file));
     PetscCall(PgCheckpointCheckPlace(sim->comm, sim->checkpoint_file));
   }
   if (!sim->output_file[0]) {

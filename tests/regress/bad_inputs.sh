@@ -441,6 +441,8 @@ option -fluid -fluid water
 option -dem_mu_s -dem_mu_s
 option -permeabilty -fluid darcy -permeabilty 1e-6
 option -dem_energy -dem_energy maybe
+option clash.csv -output clash.h5 -checkpoint ./clash.csv
+option clash.h5 -output ./clash.h5 -checkpoint clash.h5
 
 together
 if compgen -G 'failed-*' >/dev/null; then
