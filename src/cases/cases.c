@@ -10,6 +10,7 @@ static const PgCaseInfo *const cases[] = {
     &PgCaseBiaxial,         &PgCaseOperatorMms,       &PgCasePressureMms,
     &PgCaseUpTerzaghi,      &PgCaseUpMandel,          &PgCaseUpFooting,
     &PgCaseWcsphPoiseuille, &PgCaseWcsphCouette,      &PgCaseWcsphHydrostatic,
+    &PgCaseTakTwoElements,  &PgCaseTakBlock,
 };
 enum { CASES = sizeof cases / sizeof *cases };
 static const char *names[CASES];

@@ -11,6 +11,8 @@ PETSC_INTERN const PgCaseInfo PgCaseDiscCollision, PgCaseDiscOnPlane, PgCaseDisc
     PgCaseBiaxial, PgCaseUpTerzaghi, PgCaseUpMandel, PgCaseUpFooting, PgCaseOperatorMms, PgCasePressureMms;
 PETSC_INTERN const PgCaseInfo PgCaseWcsphPoiseuille, PgCaseWcsphCouette, PgCaseWcsphHydrostatic;
 
+PETSC_INTERN const PgCaseInfo PgCaseTakTwoElements, PgCaseTakBlock;
+
 /* Makes discs with ids [0, total), dealt out evenly: this rank gets `owned` of them from `first` on. Collective. */
 PETSC_INTERN PetscErrorCode PgCaseDealDiscs(PgCaseSetup *setup, PetscInt64 total, PetscInt *first, PetscInt *owned);
 

@@ -1,0 +1,34 @@
+/* What the two examples of Tak, Park & Park (2013) share: a liquid by particles on a lattice, bodies, their steps, results. */
+#pragma once
+
+#include "casesimpl.h"
+#include <porograin/bodies.h>
+
+typedef struct {
+  MPI_Comm  comm;
+  PgWcsph   wcsph;
+  PgBodies  bodies;
+  PetscReal dx;             /* spacing of the lattice [m] */
+  PetscReal dt, end;        /* [s]; dt 0: the largest that the liquid bears */
+  PetscReal every, history; /* between snapshots, between rows [s], < 0: default */
+  PetscInt  steps, step;
+  PgOutput  output; /* NULL: none */
+} PgTak;
+
+/* Liquid and bodies with their options, -dt and its kin. */
+PETSC_INTERN PetscErrorCode PgTakCreate(MPI_Comm comm, PgTak *tak);
+PETSC_INTERN PetscErrorCode PgTakDestroy(PgTak *tak);
+PETSC_INTERN PetscErrorCode PgTakRunOptions(PgTak *tak, PetscReal end);
+/* columns x rows particles from `low` on; liquid leaves out where bodies are. */
+PETSC_INTERN PetscErrorCode PgTakAddBlock(PgTak *tak, PgWcsphKind kind, PetscInt body, const PetscReal low[2],
+                                          PetscInt columns, PetscInt rows);
+PETSC_INTERN PetscErrorCode PgTakChooseSteps(PgTak *tak); /* after PgWcsphSetUp() */
+/* Refuses unread options, makes the result file. */
+PETSC_INTERN PetscErrorCode PgTakStart(PgTak *tak, const char output[], PetscInt columns, const PgColumn column[],
+                                       PetscErrorCode (*probe)(void *), void *context);
+/* One step of liquid and bodies. */
+PETSC_INTERN PetscErrorCode PgTakStep(PgTak *tak);
+/* What is due now: a row of the history, a line on the terminal, a snapshot. */
+PETSC_INTERN PetscErrorCode PgTakDue(const PgTak *tak, PetscBool *row, PetscBool *line, PetscBool *snapshot);
+PETSC_INTERN PetscErrorCode PgTakWrite(PgTak *tak, PetscBool row, PetscBool snapshot, PetscReal time,
+                                       const PetscReal values[]);

@@ -1,0 +1,499 @@
+/* Example 6.2 of Tak, Park & Park (2013): two blocks of saturated ground, between them liquid with three bodies in it.
+
+   Physics   a traction presses on the left side of zone 1, which lets water out there; zone 1 pushes on the liquid and the
+             bodies of zone 3, that on zone 2, whose right side is fixed. All slide on top and bottom, which let no water
+             through.
+   Exact     once at rest the traction is everywhere: the liquid, the bodies and the pore water of what has had no time to
+             drain carry it, 1 Pa.
+   Choices   sizes and shapes are not in the paper: zones of 18 spacings square, bodies of squares of 4 spacings. What is
+             embedded in the sides of zones 1 and 2 reaches beyond the channel, so that the corners of the liquid lean on
+             the zones and not on the channel. */
+#include "tak.h"
+#include <math.h>
+
+enum { SIDE = 18, LAYERS = 3, ZONES = 2, BODIES = 3 };
+
+/* One of zones 1 and 2, and its side at the liquid. Arrays of the side are the same on all ranks. */
+typedef struct {
+  PgFem      fem;
+  PetscReal  at;             /* x of the side [m] */
+  PetscInt   count;          /* pieces of the side */
+  PetscInt  *local;          /* (count + 1) node of this rank, if it owns it, or -1 */
+  PetscReal *u0, *u1, *v;    /* (count + 1, 2) before and after the present step of the zone [m], [m/s] */
+  PetscReal *force, *nodal;  /* (count + 1, 2), (nodes of this rank, 2) [N/m] */
+  PetscReal *X, total[2];    /* (particles, 2) [m]; force on the side [N/m] */
+  PetscReal *particle_force; /* (particles, 2) [N/m] */
+  PetscInt   particles;
+} Zone;
+
+typedef struct {
+  PgTak     tak;
+  Zone      zone[ZONES];
+  PetscReal traction;   /* [Pa] */
+  PetscReal E, nu, rho; /* of the bodies */
+  PetscInt  cells[2];   /* of each zone, along and across */
+  PetscInt  every, sub; /* steps in a step of the zones, those done of it */
+  PetscInt  kind;       /* PgBodyKind */
+  PetscBool corners;    /* of the liquid lean on the zones */
+} Block;
+
+static const char *const kinds[] = {"rigid", "linear", "finite"};
+
+static PetscErrorCode ReadOptions(Block *b, PetscOptionItems *PetscOptionsObject)
+{
+  PetscReal cells[2] = {(PetscReal)b->cells[0], (PetscReal)b->cells[1]};
+
+  PetscFunctionBeginUser;
+  PetscCall(PgOptionReal(PetscOptionsObject, "-tak_block_spacing",
+                         "spacing of particles; each zone is 18 by 18 of them", "m", PG_POSITIVE, 1e6, &b->tak.dx,
+                         NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-tak_block_traction", "traction on the left side of zone 1, to the right",
+                         "Pa", -1e12, 1e12, &b->traction, NULL));
+  PetscCall(PgOptionChoice(PetscOptionsObject, "-tak_block_bodies",
+                           "bodies that are rigid, deform by small strains, or by Green's strain", 3, kinds, &b->kind,
+                           NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-tak_block_young", "Young's modulus of the bodies", "Pa", PG_POSITIVE,
+                         1e15, &b->E, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-tak_block_poisson", "Poisson's ratio of the bodies", "1", 0.0, 0.499,
+                         &b->nu, NULL));
+  PetscCall(PgOptionReal(PetscOptionsObject, "-tak_block_density", "density of the bodies", "kg/m3", PG_POSITIVE, 1e12,
+                         &b->rho, NULL));
+  PetscCall(PgOptionReals(PetscOptionsObject, "-tak_block_cells", "cells of zones 1 and 2, along and across", "1", 2,
+                          cells, NULL));
+  PetscCall(PgOptionInt(PetscOptionsObject, "-tak_block_every", "steps of the liquid in a step of the zones", 1, 100000,
+                        &b->every, NULL));
+  PetscCall(
+      PgOptionBool(PetscOptionsObject, "-tak_block_corners",
+                   "the sides of the zones reach beyond the channel, whose walls end there; else the walls go on, and "
+                   "take a part of the thrust",
+                   &b->corners, NULL));
+  for (int d = 0; d < 2; d++) {
+    b->cells[d] = (PetscInt)cells[d];
+    PgInputCheck((PetscReal)b->cells[d] == cells[d] && cells[d] >= 1 && cells[d] <= 1e4, b->tak.comm,
+                 "option -tak_block_cells: %g is no number of cells between 1 and 10000", (double)cells[d]);
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Conditions(Block *b, PetscInt k)
+{
+  const PetscReal zero = 0.0, traction[2] = {b->traction, 0.0};
+  PgFem           fem = b->zone[k].fem;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgFemSetCondition(fem, "bottom", PG_FEM_DISPLACEMENT_Y, &zero));
+  PetscCall(PgFemSetCondition(fem, "top", PG_FEM_DISPLACEMENT_Y, &zero));
+  if (k == 0) {
+    PetscCall(PgFemSetCondition(fem, "left", PG_FEM_TRACTION, traction));
+    PetscCall(PgFemSetCondition(fem, "left", PG_FEM_PRESSURE, &zero));
+  } else {
+    PetscCall(PgFemSetCondition(fem, "right", PG_FEM_DISPLACEMENT_X, &zero));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Create(MPI_Comm comm, void **context)
+{
+  Block *b;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgCaseDefaults(
+      "-wcsph_rest_density 1000 -wcsph_viscosity 0.1 -wcsph_sound_speed 0.5 -wcsph_contact 0 -neighbors_skin 0.5 "
+      "-up_young 3e7 -up_poisson 0.48 -up_porosity 0.3 -up_permeability 1e-17 -up_viscosity 0.1 -up_density_grains "
+      "2000 "
+      "-up_density_water 1000 -up_inertia true -up_damping 1 -up_ksp_type preonly -up_pc_type lu "
+      "-up_pc_factor_mat_solver_type mumps"));
+  PetscCall(PetscNew(&b));
+  *context = b;
+  PetscCall(PgTakCreate(comm, &b->tak));
+  b->tak.dx   = 0.02;
+  b->traction = 1.0;
+  b->E        = 1e9;
+  b->nu       = 0.48;
+  b->rho      = 2000.0;
+  b->cells[0] = 100;
+  b->cells[1] = 3;
+  b->every    = 1;
+  b->kind     = PG_BODY_FINITE;
+  b->corners  = PETSC_TRUE;
+  PetscOptionsBegin(comm, "", "case tak_block", "");
+  PetscCall(ReadOptions(b, PetscOptionsObject));
+  PetscOptionsEnd();
+  PetscCall(PgTakRunOptions(&b->tak, 20.0));
+  for (PetscInt k = 0; k < ZONES; k++) {
+    const PetscReal L = SIDE * b->tak.dx, low[2] = {k ? 2 * L : 0, 0}, high[2] = {low[0] + L, L};
+
+    PetscCall(PgFemCreate(comm, &b->zone[k].fem));
+    PetscCall(PgFemSetBox(b->zone[k].fem, b->cells, low, high));
+    PetscCall(PgFemSetFromOptions(b->zone[k].fem));
+    PetscCall(Conditions(b, k));
+    b->zone[k].at = k ? low[0] : high[0];
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Destroy(void **context)
+{
+  Block *b = (Block *)*context;
+
+  PetscFunctionBeginUser;
+  if (!b) PetscFunctionReturn(0);
+  for (PetscInt k = 0; k < ZONES; k++) {
+    Zone *z = &b->zone[k];
+    PetscCall(PgFemDestroy(&z->fem));
+    PetscCall(PetscFree5(z->local, z->u0, z->u1, z->v, z->force));
+    PetscCall(PetscFree3(z->nodal, z->X, z->particle_force));
+  }
+  PetscCall(PgTakDestroy(&b->tak));
+  PetscCall(PetscFree(*context));
+  PetscFunctionReturn(0);
+}
+
+/* ---- set-up ---- */
+
+/* Nodes of the side and its particles: LAYERS columns inside of the zone, as many rows beyond the channel on each side. */
+static PetscErrorCode SetUpZone(Block *b, PetscInt k)
+{
+  Zone           *z  = &b->zone[k];
+  const PetscReal dx = b->tak.dx, L = SIDE * dx;
+  const PetscInt  beyond = b->corners ? LAYERS : 0, rows = SIDE + 2 * beyond;
+  PgFemNodes      nodes;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgFemSetUp(z->fem));
+  PetscCall(PgFemGetNodes(z->fem, &nodes));
+  z->count     = b->cells[1];
+  z->particles = LAYERS * rows;
+  PetscCall(PetscCalloc5(z->count + 1, &z->local, 2 * (z->count + 1), &z->u0, 2 * (z->count + 1), &z->u1,
+                         2 * (z->count + 1), &z->v, 2 * (z->count + 1), &z->force));
+  PetscCall(PetscCalloc3(2 * nodes.count, &z->nodal, 2 * z->particles, &z->X, 2 * z->particles, &z->particle_force));
+  for (PetscInt j = 0; j <= z->count; j++) z->local[j] = -1;
+  for (PetscInt i = 0; i < nodes.count; i++)
+    if (nodes.owned[i] && PetscAbsReal(nodes.x[2 * i] - z->at) < 1e-6 * dx)
+      z->local[(PetscInt)(nodes.x[2 * i + 1] / L * (PetscReal)z->count + 0.5)] = i;
+  for (PetscInt c = 0; c < LAYERS; c++)
+    for (PetscInt r = 0; r < rows; r++) {
+      PetscReal *X = &z->X[2 * (c * rows + r)];
+      X[0]         = z->at + (k ? 1 : -1) * ((PetscReal)c + 0.5) * dx;
+      X[1]         = ((PetscReal)(r - beyond) + 0.5) * dx;
+    }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode AddZoneParticles(Block *b, PetscInt k)
+{
+  const Zone      *z = &b->zone[k];
+  PgWcsphParticle *p;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscCalloc1(z->particles, &p));
+  for (PetscInt i = 0; i < z->particles; i++) {
+    p[i].kind  = PG_WCSPH_BODY;
+    p[i].body  = BODIES + k;
+    p[i].index = i;
+    PetscCall(PetscArraycpy(p[i].x, &z->X[2 * i], 2));
+  }
+  PetscCall(PgWcsphAddParticles(b->tak.wcsph, z->particles, p));
+  PetscCall(PetscFree(p));
+  PetscFunctionReturn(0);
+}
+
+/* Lower left corners and sizes of the bodies in spacings, each of squares of 4. */
+static PetscErrorCode AddBodies(Block *b)
+{
+  static const PetscInt place[BODIES][4] = {{2, 1, 4, 16}, {8, 2, 8, 8}, {8, 12, 8, 4}};
+  const PgBodyMesh      like             = {.kind = (PgBodyKind)b->kind, .E = b->E, .nu = b->nu, .rho = b->rho};
+
+  PetscFunctionBeginUser;
+  for (int k = 0; k < BODIES; k++) {
+    const PetscInt  cells[2] = {place[k][2] / 4, place[k][3] / 4};
+    const PetscReal dx = b->tak.dx, low[2] = {dx * (PetscReal)(SIDE + place[k][0]), dx * (PetscReal)place[k][1]};
+    const PetscReal high[2] = {low[0] + dx * (PetscReal)place[k][2], low[1] + dx * (PetscReal)place[k][3]};
+
+    PetscCall(PgBodiesAddBox(b->tak.bodies, &like, cells, low, high, NULL));
+    PetscCall(PgBodiesEmbedLattice(b->tak.bodies, k, dx));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Displacement of the side at a height, or velocity: linear between the nodes, constant beyond. */
+static void AtHeight(const Zone *z, PetscReal L, PetscReal y, PetscInt *j, PetscReal *part)
+{
+  const PetscReal s = PetscMin(PetscMax(y / L, 0.0), 1.0) * (PetscReal)z->count;
+
+  *j    = PetscMin((PetscInt)s, z->count - 1);
+  *part = s - (PetscReal)*j;
+}
+
+static PetscErrorCode Motion(void *context, PetscInt count, const PetscInt body[], const PetscInt index[],
+                             PetscReal x[], PetscReal v[])
+{
+  const Block    *b    = (const Block *)context;
+  const PetscReal done = (PetscReal)b->sub / (PetscReal)b->every;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgBodiesMotion(b->tak.bodies, count, body, index, x, v));
+  for (PetscInt n = 0; n < count; n++) {
+    const Zone *z;
+    PetscInt    j;
+    PetscReal   part;
+
+    if (body[n] < BODIES) continue;
+    z = &b->zone[body[n] - BODIES];
+    AtHeight(z, SIDE * b->tak.dx, z->X[2 * index[n] + 1], &j, &part);
+    for (int d = 0; d < 2; d++) {
+      const PetscReal before = (1 - part) * z->u0[2 * j + d] + part * z->u0[2 * j + 2 + d];
+      const PetscReal after  = (1 - part) * z->u1[2 * j + d] + part * z->u1[2 * j + 2 + d];
+      x[2 * n + d]           = z->X[2 * index[n] + d] + before + done * (after - before);
+      v[2 * n + d]           = (1 - part) * z->v[2 * j + d] + part * z->v[2 * j + 2 + d];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* ---- forces of the liquid on the zones, and the way of their sides ---- */
+
+static PetscErrorCode TakeForces(Block *b)
+{
+  PgWcsphSolids solids;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgWcsphGetSolids(b->tak.wcsph, PG_WCSPH_BODY, &solids));
+  for (PetscInt k = 0; k < ZONES; k++) {
+    Zone      *z = &b->zone[k];
+    PgFemNodes nodes;
+
+    PetscCall(PetscArrayzero(z->particle_force, 2 * z->particles));
+    for (PetscInt n = 0; n < solids.count; n++)
+      if (solids.body[n] == BODIES + k)
+        PetscCall(PetscArraycpy(&z->particle_force[2 * solids.index[n]], &solids.force[2 * n], 2));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, z->particle_force, (PetscMPIInt)(2 * z->particles), MPIU_REAL, MPI_SUM,
+                               b->tak.comm));
+    PetscCall(PetscArrayzero(z->force, 2 * (z->count + 1)));
+    z->total[0] = z->total[1] = 0.0;
+    for (PetscInt i = 0; i < z->particles; i++) {
+      PetscInt  j;
+      PetscReal part;
+      AtHeight(z, SIDE * b->tak.dx, z->X[2 * i + 1], &j, &part);
+      for (int d = 0; d < 2; d++) {
+        const PetscReal F = z->particle_force[2 * i + d];
+        z->force[2 * j + d] += (1 - part) * F;
+        z->force[2 * j + 2 + d] += part * F;
+        z->total[d] += F;
+      }
+    }
+    PetscCall(PgFemGetNodes(z->fem, &nodes));
+    PetscCall(PetscArrayzero(z->nodal, 2 * nodes.count));
+    for (PetscInt j = 0; j <= z->count; j++)
+      if (z->local[j] >= 0) PetscCall(PetscArraycpy(&z->nodal[2 * z->local[j]], &z->force[2 * j], 2));
+    PetscCall(PgFemSetNodalForces(z->fem, z->nodal));
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode StepZones(Block *b)
+{
+  const PetscReal dt = b->tak.dt * (PetscReal)b->every;
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < ZONES; k++) {
+    Zone          *z = &b->zone[k];
+    const PetscInt n = 2 * (z->count + 1);
+    PgFemNodes     nodes;
+
+    PetscCall(PgFemStep(z->fem, dt));
+    PetscCall(PgFemGetNodes(z->fem, &nodes));
+    PetscCall(PetscArraycpy(z->u0, z->u1, n));
+    PetscCall(PetscArrayzero(z->u1, n));
+    for (PetscInt j = 0; j <= z->count; j++)
+      if (z->local[j] >= 0) PetscCall(PetscArraycpy(&z->u1[2 * j], &nodes.displacement[2 * z->local[j]], 2));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, z->u1, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, b->tak.comm));
+    for (PetscInt i = 0; i < n; i++) z->v[i] = (z->u1[i] - z->u0[i]) / dt;
+  }
+  b->sub = 0;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Fill(Block *b)
+{
+  const PetscInt  more = b->corners ? 0 : LAYERS;
+  const PetscReal dx = b->tak.dx, L = SIDE * dx, low[2] = {L, 0}, left = L - dx * (PetscReal)more;
+  const PetscReal below[2] = {left, -LAYERS * dx}, above[2] = {left, L};
+
+  PetscFunctionBeginUser;
+  PetscCall(AddBodies(b));
+  PetscCall(PgTakAddBlock(&b->tak, PG_WCSPH_FLUID, 0, low, SIDE, SIDE));
+  PetscCall(PgTakAddBlock(&b->tak, PG_WCSPH_WALL, 0, below, SIDE + 2 * more, LAYERS));
+  PetscCall(PgTakAddBlock(&b->tak, PG_WCSPH_WALL, 1, above, SIDE + 2 * more, LAYERS));
+  PetscCall(PgBodiesJoin(b->tak.bodies, b->tak.wcsph));
+  for (PetscInt k = 0; k < ZONES; k++) {
+    PetscCall(SetUpZone(b, k));
+    PetscCall(AddZoneParticles(b, k));
+  }
+  PetscCall(PgWcsphSetMotion(b->tak.wcsph, Motion, b));
+  PetscCall(PgWcsphSetUp(b->tak.wcsph));
+  PetscCall(PgBodiesCouple(b->tak.bodies, b->tak.wcsph));
+  PetscCall(TakeForces(b));
+  PetscFunctionReturn(0);
+}
+
+/* ---- results ---- */
+
+enum { TIME, P_LIQUID, P_STD, STRESS_1, STRESS_2, PORE_1, PORE_2, WAY_1, WAY_2, STRAIN, ELASTIC, ENERGY, COLUMNS };
+static const PgColumn columns[COLUMNS] = {
+    {"time", "s", "time"},
+    {"pressure_liquid", "Pa", "mean pressure of the liquid, by volume"},
+    {"pressure_deviation", "Pa", "standard deviation of the pressure of its particles"},
+    {"stress_1", "Pa", "force of the liquid on zone 1 over the height, compression positive"},
+    {"stress_2", "Pa", "the same on zone 2"},
+    {"pore_pressure_1", "Pa", "mean pore pressure of the right half of zone 1"},
+    {"pore_pressure_2", "Pa", "mean pore pressure of zone 2"},
+    {"displacement_1", "m", "mean way of the right side of zone 1, to the right"},
+    {"displacement_2", "m", "mean way of the left side of zone 2, to the right"},
+    {"body_strain", "1", "area that the bodies have lost over that which they had"},
+    {"body_energy", "J/m", "elastic energy of the bodies"},
+    {"energy", "J/m", "kinetic energy of liquid and bodies, and what the liquid stores"},
+};
+
+static PetscErrorCode Pressure(Block *b, PetscReal *mean, PetscReal *deviation)
+{
+  PgExactSum  sum[3] = {{.not_finite = 0}, {.not_finite = 0}, {.not_finite = 0}};
+  PgParticles particles;
+  PgField     field[3];
+  PetscReal  *kind, *rho, *p, *m, value[3];
+  PetscInt    owned;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgWcsphGetParticles(b->tak.wcsph, &particles));
+  PetscCall(PgParticlesGetSizes(particles, &owned, NULL, NULL));
+  PetscCall(PgParticlesFindField(particles, "kind", &field[0]));
+  PetscCall(PgParticlesFindField(particles, "density", &field[1]));
+  PetscCall(PgParticlesFindField(particles, "pressure", &field[2]));
+  PetscCall(PgParticlesGetArray(particles, field[0], &kind));
+  PetscCall(PgParticlesGetArray(particles, field[1], &rho));
+  PetscCall(PgParticlesGetArray(particles, field[2], &p));
+  PetscCall(PgParticlesGetArray(particles, PG_MASS, &m));
+  for (PetscInt i = 0; i < owned; i++) {
+    const PetscReal V = m[i] / rho[i];
+    if (kind[i] != (PetscReal)PG_WCSPH_FLUID) continue;
+    PgExactSumAdd(&sum[0], V);
+    PgExactSumAdd(&sum[1], V * p[i]);
+    PgExactSumAdd(&sum[2], V * p[i] * p[i]);
+  }
+  PetscCall(PgExactSumReduce(b->tak.comm, 3, sum, value));
+  *mean      = value[1] / value[0];
+  *deviation = PetscSqrtReal(PetscMax(0.0, value[2] / value[0] - *mean * *mean));
+  PetscFunctionReturn(0);
+}
+
+static void Pore(void *context, const PgFemPoint *point, PetscReal value[])
+{
+  const PetscReal from = *(const PetscReal *)context;
+
+  value[0] = point->x[0] > from ? point->pressure : 0.0;
+  value[1] = point->x[0] > from ? 1.0 : 0.0;
+}
+
+static PetscReal Area(const PgBodyState *s, const PetscReal x[])
+{
+  PetscReal area = 0.0;
+
+  for (PetscInt e = 0; e < s->edges; e++) {
+    const PetscReal *p = &x[2 * s->edge[2 * e]], *q = &x[2 * s->edge[2 * e + 1]];
+    area += 0.5 * (p[0] * q[1] - q[0] * p[1]);
+  }
+  return area;
+}
+
+static PetscErrorCode FillRow(Block *b, PetscReal row[COLUMNS])
+{
+  PgWcsphTotals totals;
+  PetscReal     area[2] = {0, 0};
+
+  PetscFunctionBeginUser;
+  PetscCall(PgWcsphGetTime(b->tak.wcsph, NULL, &row[TIME]));
+  PetscCall(PgWcsphGetTotals(b->tak.wcsph, &totals));
+  PetscCall(Pressure(b, &row[P_LIQUID], &row[P_STD]));
+  row[ELASTIC] = 0.0;
+  row[ENERGY]  = totals.kinetic + totals.internal;
+  for (PetscInt k = 0; k < BODIES; k++) {
+    PgBodyState s;
+    PetscCall(PgBodiesGet(b->tak.bodies, k, &s));
+    area[0] += Area(&s, s.X);
+    area[1] += Area(&s, s.x);
+    row[ELASTIC] += s.elastic;
+    row[ENERGY] += s.kinetic + s.elastic;
+  }
+  row[STRAIN] = 1.0 - area[1] / area[0];
+  for (PetscInt k = 0; k < ZONES; k++) {
+    const Zone     *z = &b->zone[k];
+    const PetscReal L = SIDE * b->tak.dx, from = k ? 0.0 : 0.5 * L, done = (PetscReal)b->sub / (PetscReal)b->every;
+    PetscReal       pore[2], way = 0.0;
+
+    PetscCall(PgFemIntegrate(z->fem, 2, Pore, (void *)&from, pore));
+    for (PetscInt j = 0; j <= z->count; j++) /* trapezoidal over the side */
+      way += (j == 0 || j == z->count ? 0.5 : 1.0) * (z->u0[2 * j] + done * (z->u1[2 * j] - z->u0[2 * j]));
+    row[PORE_1 + k]   = pore[0] / pore[1];
+    row[WAY_1 + k]    = way / (PetscReal)z->count;
+    row[STRESS_1 + k] = (k ? 1 : -1) * z->total[0] / L;
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Observe(Block *b)
+{
+  PetscBool row, line, snapshot;
+  PetscReal value[COLUMNS];
+
+  PetscFunctionBeginUser;
+  PetscCall(PgTakDue(&b->tak, &row, &line, &snapshot));
+  if (!row && !line && !snapshot) PetscFunctionReturn(0);
+  PetscCall(FillRow(b, value));
+  if (line)
+    PetscCall(PetscPrintf(b->tak.comm,
+                          "t %.4e s  liquid %.4f Pa  on zones %.4f %.4f Pa  pores %.4f %.4f Pa  way %.4e m\n",
+                          (double)value[TIME], (double)value[P_LIQUID], (double)value[STRESS_1],
+                          (double)value[STRESS_2], (double)value[PORE_1], (double)value[PORE_2], (double)value[WAY_1]));
+  PetscCall(PgTakWrite(&b->tak, row, snapshot, value[TIME], value));
+  PetscFunctionReturn(0);
+}
+
+/* The zones go first, with the forces of the liquid as it is; then liquid and bodies, their sides moving evenly. */
+static PetscErrorCode TimeLoop(Block *b)
+{
+  PetscFunctionBeginUser;
+  PetscCall(Observe(b));
+  while (b->tak.step < b->tak.steps) {
+    if (b->tak.step % b->every == 0) PetscCall(StepZones(b));
+    b->sub++;
+    PetscCall(PgTakStep(&b->tak));
+    PetscCall(TakeForces(b));
+    PetscCall(Observe(b));
+  }
+  if (b->tak.output) PetscCall(PgOutputFinish(b->tak.output));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
+{
+  Block         *b = (Block *)context;
+  PetscErrorCode err;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgStagePush(PG_STAGE_SETUP));
+  PetscCall(Fill(b));
+  PetscCall(PgTakChooseSteps(&b->tak));
+  for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemSetUpSolver(b->zone[k].fem, b->tak.dt * (PetscReal)b->every));
+  PetscCall(PgTakStart(&b->tak, output, COLUMNS, columns, PgFemProbeOptions, b->zone[0].fem));
+  PetscCall(PgStagePop());
+  for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemView(b->zone[k].fem, PETSC_VIEWER_STDOUT_(comm)));
+  err = TimeLoop(b);
+  if (!err && output[0]) PetscCall(PetscPrintf(comm, "wrote %s\n", output));
+  PetscFunctionReturn(err);
+}
+
+const PgCaseInfo PgCaseTakBlock = {.name    = "tak_block",
+                                   .summary = "two blocks of saturated ground with liquid and bodies between them",
+                                   .create  = Create,
+                                   .destroy = Destroy,
+                                   .run     = RunCase};
