@@ -71,6 +71,9 @@ else
   echo "figures: pvpython or xvfb-run is not installed: the picture of ParaView stays as it is" >&2
 fi
 
+# The examples of Tak, Park & Park.
+bash "$SOURCE_DIR/tests/figures/tak.sh" tak
+
 # Half of the bytes: 256 colours do not bend the scales.
 if command -v pngquant >/dev/null; then
   pngquant --force --ext .png --strip --speed 1 --nofs 256 -- "$pictures"/*.png
