@@ -35,7 +35,7 @@ set terminal pngcairo size 720,400 font 'DejaVu Sans,10'
 set output '$pictures/$picture.png'
 set datafile separator ','
 set grid lc '#dddddd'
-set key top left
+set key outside bottom center horizontal
 set xlabel 'time [s]'
 set ylabel '$y'
 set format y '%.2g'
@@ -46,6 +46,8 @@ draw tak_two_pressure 'pressure [Pa]' two:pressure_a:A two:pressure_b:B
 draw tak_two_way 'displacement [m]' 'two:displacement_left:left element' 'two:displacement_right:right element'
 draw tak_mm_pressure 'pressure [Pa]' mm:pressure_a:A mm:pressure_b:B
 draw tak_mm_way 'displacement [m]' 'mm:displacement_left:left element' 'mm:displacement_right:right element'
+draw tak_two_speed 'velocity [m/s]' 'two:velocity_left:left element' 'two:velocity_right:right element'
+draw tak_mm_speed 'velocity [m/s]' 'mm:velocity_left:left element' 'mm:velocity_right:right element'
 draw tak_block_pressure 'pressure, stress [Pa]' 'block:pressure_liquid:liquid' 'block:stress_1:zone 1' \
   'block:pore_pressure_1:pores of zone 1' 'block:pore_pressure_2:pores of zone 2'
 if command -v pngquant >/dev/null; then pngquant --force --ext .png --strip --speed 1 --nofs 64 -- "$pictures"/tak_*.png; fi
