@@ -16,7 +16,8 @@ static PetscErrorCode RegisterFields(PgDem dem)
       {"coordination_number", 1, "1", "Discs and walls that touch this one, and its plate if that pushes",
        PG_FIELD_OUTPUT},
       {"stress", 4, "Pa",
-       "Stress of the contact, wall and plate forces on the disc, tension positive: over pi r^2/(1 - porosity) in water, "
+       "Stress of the contact, wall and plate forces on the disc, tension positive: over pi r^2/(1 - porosity) in "
+       "water, "
        "over pi r^2 in a dry run",
        PG_FIELD_OUTPUT},
       {"contact_share", 1, "1", "Springs that share the mass of the disc in the critical time step", PG_FIELD_HALO},

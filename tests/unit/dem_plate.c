@@ -112,7 +112,7 @@ static void Slip(void **state)
   const PetscReal push[2][2] = {{0, -1300}, {0, 1100}};
   const Disc      disc[]     = {{.x = 0.01, .y = 0.02, .vx = 0.4, .vy = 0.02, .w = 33, .r = r, .m = 0.17, .plate = 1},
                                 {.x = 0.05, .y = 0.02, .vx = 0.4, .vy = -0.07, .w = 33, .r = r, .m = 0.17, .plate = 2}};
-  PetscReal       force[4], torque[2], spring[2];
+  PetscReal       force[4], torque[2], spring[2], sigma[8];
   World           world;
 
   (void)state;
@@ -126,6 +126,11 @@ static void Slip(void **state)
   assert_true(PetscAbsReal(force[0] + k_s * 0.565 * 10 * dt) < 1e-14);
   assert_true(PetscAbsReal(force[2] + k_s * 0.235 * 10 * dt) < 1e-14);
   assert_true(PetscAbsReal(torque[0] - r * force[0]) < 1e-16 && PetscAbsReal(torque[1] + r * force[2]) < 1e-16);
+  /* f_x at the arm side r over pi r^2; sums of two terms */
+  CHECK(PgDemComputeObservables(world.dem));
+  WorldGet(&world, "stress", 4, 2, sigma);
+  assert_true(PetscAbsReal(sigma[1] * PETSC_PI * r + force[0]) < 1e-14 && sigma[2] == 0);
+  assert_true(PetscAbsReal(sigma[5] * PETSC_PI * r - force[2]) < 1e-14 && sigma[6] == 0);
   for (PetscInt k = 0; k < 100; k++) CHECK(PgDemForces(world.dem, 1e-6));
   WorldGet(&world, "force", 2, 2, force);
   WorldGet(&world, "plate_spring", 1, 2, spring);
