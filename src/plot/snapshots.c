@@ -123,20 +123,35 @@ static PetscErrorCode SheetDestroy(Sheet *s)
   PetscFunctionReturn(0);
 }
 
-#define MARGIN 0.02
+#define MARGIN    0.02
+#define CHARACTER 8.0     /* of a digit in 11 points, and a little [pixels] */
 enum { MOST_SVG = 2500 }; /* discs of a picture: gnuplot writes 2 to 4 kB for each */
+
+/* On each side of the axes [mm]. */
+static PetscReal Margin(const PetscReal low[2], const PetscReal high[2])
+{
+  return MARGIN * PetscMax(high[0] - low[0], high[1] - low[1]);
+}
+
+/* Between two tics: the same on both axes, but where the shorter would have less than two. */
+static PetscReal TicStep(const PetscReal low[2], const PetscReal high[2], int axis)
+{
+  const PetscReal longest = PetscMax(high[0] - low[0], high[1] - low[1]);
+
+  /* a third is rounded to less than half */
+  return PetscMin(PgPlotRound(longest / 5.0), PgPlotRound((high[axis] - low[axis]) / 3.0));
+}
 
 /* Axes in mm, the same scale on both, `low` to `high` and a margin. */
 static void Axes(FILE *f, const PetscReal low[2], const PetscReal high[2])
 {
-  const PetscReal margin = MARGIN * PetscMax(high[0] - low[0], high[1] - low[1]);
-  const PetscReal tics   = PgPlotRound(PetscMax(high[0] - low[0], high[1] - low[1]) / 5.0);
+  const PetscReal margin = Margin(low, high);
 
   (void)fprintf(f,
                 "set size ratio -1\nset xrange [%.5g:%.5g]\nset yrange [%.5g:%.5g]\nset tics out nomirror\n"
                 "set xtics %.3g\nset ytics %.3g\nset border 3 lc rgb '#666666'\n",
                 (double)(low[0] - margin), (double)(high[0] + margin), (double)(low[1] - margin),
-                (double)(high[1] + margin), (double)tics, (double)tics);
+                (double)(high[1] + margin), (double)TicStep(low, high, 0), (double)TicStep(low, high, 1));
 }
 
 static const char *Unit(const PgPlotField *field) { return strcmp(field->unit, "1") ? field->unit : "–"; }
@@ -185,10 +200,8 @@ static PetscReal BarStep(const Sheet *s, PetscInt f)
 /* Width that the labels of a colour bar need [pixels]. */
 static PetscReal BarWidth(const Sheet *s, PetscInt f)
 {
-  const PetscReal character = 8.0; /* of a digit in 11 points, and a little */
-
   if (s->field[f]->drawing == PG_PLOT_STREAMLINES) return 0.0;
-  return character * (PetscReal)LabelsOf(&s->range[f], BarStep(s, f)).length;
+  return CHARACTER * (PetscReal)LabelsOf(&s->range[f], BarStep(s, f)).length;
 }
 
 static void LabelBar(FILE *file, const PgPlotRange *range, PetscReal step)
@@ -268,7 +281,7 @@ static void Title(FILE *file, const Sheet *s, PetscInt f, PetscBool sheet)
 /* Size of the axes of a picture, whose longer side has `longest` pixels. */
 static void Pixels(const PetscReal low[2], const PetscReal high[2], PetscReal longest, PetscReal pixels[2])
 {
-  const PetscReal margin = 2.0 * MARGIN * PetscMax(high[0] - low[0], high[1] - low[1]);
+  const PetscReal margin = 2.0 * Margin(low, high);
   const PetscReal width = high[0] - low[0] + margin, height = high[1] - low[1] + margin;
 
   pixels[0] = PetscMax(120.0, longest * width / PetscMax(width, height));
@@ -297,15 +310,37 @@ static PetscErrorCode Single(Sheet *s, PetscInt f)
 }
 
 /* Places on a sheet, in pixels from its upper left corner: cells of equal size, each with room for the labels of
-   its axes on the left and below, a title above, and a colour bar with its labels (`bar`) on the right. */
-enum { LEFT = 82, RIGHT = 44, ABOVE = 50, BELOW = 62, HEAD = 34 };
+   its axes on the left and below, a title above, and a colour bar with its labels on the right. */
+enum { LABEL = 58, LEAST_LEFT = 82, RIGHT = 44, ABOVE = 50, BELOW = 62, HEAD = 34 };
+typedef struct {
+  PetscInt  columns, rows;
+  PetscReal left, pixels[2], bar; /* left: of the axes; bar: for its labels */
+} Cells;
 
-static void Place(FILE *file, PetscInt cell, PetscInt columns, PetscInt rows, const PetscReal pixels[2], PetscReal bar)
+static PetscReal CellWidth(const Cells *c) { return c->left + c->pixels[0] + RIGHT + c->bar; }
+static PetscReal CellHeight(const Cells *c) { return c->pixels[1] + ABOVE + BELOW; }
+
+/* Width of "y [mm]" with the numbers at the tics [pixels]; of three digits the least, which the load needs as well. */
+static PetscReal LeftOf(const PgPlotDiscs *discs)
 {
-  const PetscReal cw = pixels[0] + LEFT + RIGHT + bar, ch = pixels[1] + ABOVE + BELOW;
-  const PetscReal width = cw * (PetscReal)columns, height = ch * (PetscReal)rows + HEAD;
-  const PetscInt  row = cell / columns, column = cell % columns;
-  const PetscReal left = cw * (PetscReal)column + LEFT, top = HEAD + ch * (PetscReal)row + ABOVE;
+  const PetscReal step = TicStep(discs->low, discs->high, 1), margin = Margin(discs->low, discs->high);
+  const PetscInt  first   = (PetscInt)PetscCeilReal((discs->low[1] - margin) / step);
+  size_t          longest = 0;
+
+  for (PetscInt k = first; (PetscReal)k * step <= discs->high[1] + margin; k++) {
+    char text[64];
+    (void)snprintf(text, sizeof text, "%g", (double)((PetscReal)k * step)); /* as gnuplot writes it */
+    longest = PetscMax(longest, strlen(text));
+  }
+  return PetscMax(LEAST_LEFT, LABEL + CHARACTER * (PetscReal)longest);
+}
+
+static void Place(FILE *file, PetscInt cell, const Cells *cells)
+{
+  const PetscReal cw = CellWidth(cells), ch = CellHeight(cells), *pixels = cells->pixels;
+  const PetscReal width = cw * (PetscReal)cells->columns, height = ch * (PetscReal)cells->rows + HEAD;
+  const PetscInt  row = cell / cells->columns, column = cell % cells->columns;
+  const PetscReal left = cw * (PetscReal)column + cells->left, top = HEAD + ch * (PetscReal)row + ABOVE;
   const PetscReal bottom = 1.0 - (top + pixels[1]) / height;
 
   (void)fprintf(file,
@@ -345,30 +380,30 @@ static PetscErrorCode LoadCell(const Sheet *s, FILE *file)
 /* All fields in rows of four. */
 static PetscErrorCode All(Sheet *s)
 {
-  const PetscInt  cells = s->fields + (s->source->load && s->fields % 4), columns = PetscMin(4, cells);
-  const PetscInt  rows     = (cells + columns - 1) / columns;
+  const PetscInt  count = s->fields + (s->source->load && s->fields % 4), columns = PetscMin(4, count);
   const PetscBool png_only = (PetscBool)(s->discs.count * s->fields > MOST_SVG);
+  Cells           cells    = {.columns = columns, .rows = (count + columns - 1) / columns, .bar = 40.0};
   PgScript        script;
-  PetscReal       pixels[2], bar = 40.0;
   char            name[256], quoted[300];
 
   PetscFunctionBeginUser;
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-fields", s->base));
-  Pixels(s->discs.low, s->discs.high, 380.0, pixels);
-  for (PetscInt f = 0; f < s->fields; f++) bar = PetscMax(bar, BarWidth(s, f));
-  PetscCall(PgScriptBegin(s->plot, name, (pixels[0] + LEFT + RIGHT + bar) * (PetscReal)columns,
-                          (pixels[1] + ABOVE + BELOW) * (PetscReal)rows + HEAD, png_only, &script));
+  cells.left = LeftOf(&s->discs);
+  Pixels(s->discs.low, s->discs.high, 380.0, cells.pixels);
+  for (PetscInt f = 0; f < s->fields; f++) cells.bar = PetscMax(cells.bar, BarWidth(s, f));
+  PetscCall(PgScriptBegin(s->plot, name, CellWidth(&cells) * (PetscReal)columns,
+                          CellHeight(&cells) * (PetscReal)cells.rows + HEAD, png_only, &script));
   PetscCall(PgScriptPicture(&script));
   (void)fprintf(script.file, "set multiplot title '%s: %s' noenhanced\n",
                 PgScriptQuote(s->source->label, quoted, sizeof quoted), s->when);
   Axes(script.file, s->discs.low, s->discs.high);
-  for (PetscInt f = 0; f < cells; f++) {
-    Place(script.file, f, columns, rows, pixels, bar);
+  for (PetscInt f = 0; f < count; f++) {
+    Place(script.file, f, &cells);
     if (f == s->fields) {
       PetscCall(LoadCell(s, script.file));
       break;
     }
-    (void)fprintf(script.file, "set xlabel '%s'\nset ylabel '%s'\n", f + columns >= cells ? "x [mm]" : "",
+    (void)fprintf(script.file, "set xlabel '%s'\nset ylabel '%s'\n", f + columns >= count ? "x [mm]" : "",
                   f % columns == 0 ? "y [mm]" : "");
     Title(script.file, s, f, PETSC_TRUE);
     PetscCall(DrawField(&script, s, f));

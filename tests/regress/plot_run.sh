@@ -53,6 +53,28 @@ awk '/set terminal svg size/ { split($5, size, ",") }
   END { exit bad || n != 4 || length(label) < 7 }' narrow/narrow-fields.gp || fail 'labels of the colour bars of a sheet'
 [ ! -e "early/$wet-rotation.gp" ] || fail '-plot_fields draws more than asked'
 
+# Left of a sheet there is room for the longest number at the y axis, and for "y [mm]", which is 15 pixels high and which
+# gnuplot puts 40 pixels from the axis without the number; whatever the size is. And there are two tics on either axis.
+tics() { # SHEET: longest number at the y axis
+  awk -v sheet="$1" '/set terminal svg size/ { split($5, size, ",") }
+    /^set [xy]range/ { split(substr($3, 2), range, ":"); low = range[1]; high = range[2] + 0 }
+    /^set [xy]range/ { from[substr($2, 1, 1)] = low; to[substr($2, 1, 1)] = high }
+    /^set [xy]tics [0-9.]/ { axis = substr($2, 1, 1); n = 0; longest = 0
+      for (i = -int(-from[axis] / $3 ) - 1; i * $3 <= to[axis]; i++) {
+        if (i * $3 < from[axis]) continue
+        n++
+        if (length(sprintf("%g", i * $3)) > longest) longest = length(sprintf("%g", i * $3)) }
+      if (n < 2 && !done) { print sheet ": " n " tics on axis " axis; bad = 1 } }
+    /^set border/ { done = 1; digits = longest }
+    /^set lmargin/ && !placed++ { left = $5 * size[1]
+      if (left < 7 * digits + 55) { print sheet ": " left " pixels for " digits " digits" ; bad = 1 } }
+    END { if (!bad) print digits; exit bad || !placed }' "$1" || fail "room for the y axis"
+}
+"$POROGRAIN" -case panel -panel_radius 2.5 -panel_columns 10 -panel_rows 21 -dem_local_damping 0.7 -end_time 1e-3 -output large.h5 >large.log
+"$POROGRAIN_PLOT" large.h5 -figures large -plot_fields rotation,porosity -plot_gnuplot none >large.out
+[ "$(tics large/large-fields.gp)" -ge 5 ] || fail "numbers at the y axis of a large panel: $(tics large/large-fields.gp)"
+tics narrow/narrow-fields.gp >/dev/null
+
 # A continuum: cells where they are with their displacement magnified, all fields, the settlement, a film.
 "$POROGRAIN" -options_file "$SOURCE_DIR/options/up_footing.opts" -up_cells 8,8 -output ground.h5 >ground.log 2>&1 ||
   fail "up_footing: $(tail -n 3 ground.log)"
