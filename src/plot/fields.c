@@ -23,11 +23,27 @@ static const PgPlotField fields[] = {
     {"mean_stress", "mean contact stress, compression > 0", "kPa", "stress", 4, 1e-3, MeanCompression, PETSC_TRUE,
      PG_PLOT_DISCS},
     {"displacement", "displacement", "mm", "displacement", 2, 1e3, Magnitude, PETSC_FALSE, PG_PLOT_DISCS},
+    {"density", "density", "kg/m³", "density", 1, 1.0, First, PETSC_FALSE, PG_PLOT_DISCS},
 };
+
+/* Of particles of a liquid: all that they have. */
+static const PgPlotField of_liquid[] = {
+    {"speed", "speed of the liquid", "mm/s", "velocity", 2, 1e3, Magnitude, PETSC_FALSE, PG_PLOT_DISCS},
+    {"pressure", "pressure", "kPa", "pressure", 1, 1e-3, First, PETSC_FALSE, PG_PLOT_DISCS},
+    {"density", "density", "kg/m³", "density", 1, 1.0, First, PETSC_FALSE, PG_PLOT_DISCS},
+};
+
+const PgPlotField *PgPlotLiquidFieldAt(PetscInt index)
+{
+  return index >= 0 && index < (PetscInt)(sizeof of_liquid / sizeof *of_liquid) ? &of_liquid[index] : NULL;
+}
 
 const PgPlotField *PgPlotFieldIn(const PgPlotSource *source, const PgPlotField *field)
 {
-  return source->mesh ? PgPlotMeshFieldFind(field->name) : field;
+  if (source->mesh) return PgPlotMeshFieldFind(field->name);
+  for (PetscInt f = 0; source->liquid && PgPlotLiquidFieldAt(f); f++)
+    if (!strcmp(PgPlotLiquidFieldAt(f)->name, field->name)) return PgPlotLiquidFieldAt(f);
+  return field;
 }
 
 const PgPlotField *PgPlotFieldAt(PetscInt index)
@@ -37,6 +53,7 @@ const PgPlotField *PgPlotFieldAt(PetscInt index)
 
 const PgPlotField *PgPlotFieldFind(const char name[])
 {
+  if (!strcmp(name, "velocity")) name = "speed"; /* as the dataset is called */
   for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
     if (!strcmp(fields[i].name, name)) return &fields[i];
   return NULL;
@@ -104,12 +121,14 @@ PetscErrorCode PgPlotDiscsRead(const PgPlotSource *source, PetscInt snapshot, Pg
   PetscInt   n = -1;
 
   PetscFunctionBeginUser;
+  discs->kind = NULL;
   if (source->mesh) {
     PetscCall(PgPlotMeshRead(source, snapshot, discs));
     PetscFunctionReturn(0);
   }
   PetscCall(PgPlotSourceSnapshot(source, snapshot, "position", 2, &n, &position));
   PetscCall(PgPlotSourceSnapshot(source, snapshot, "radius", 1, &n, &radius));
+  if (source->liquid) PetscCall(PgPlotSourceSnapshot(source, snapshot, "kind", 1, &n, &discs->kind));
   discs->count = n;
   PetscCall(PetscMalloc3(n, &discs->x, n, &discs->y, n, &discs->r));
   for (PetscInt i = 0; i < n; i++) {
@@ -133,22 +152,26 @@ PetscErrorCode PgPlotDiscsDestroy(PgPlotDiscs *discs)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscFree3(discs->x, discs->y, discs->r));
+  PetscCall(PetscFree(discs->kind));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PgPlotFieldRead(const PgPlotSource *source, PetscInt snapshot, const PgPlotField *field, PetscInt discs,
-                               PetscReal **value)
+PetscErrorCode PgPlotFieldRead(const PgPlotSource *source, PetscInt snapshot, const PgPlotField *field,
+                               const PgPlotDiscs *discs, PetscReal **value)
 {
   PetscReal *rows;
+  PetscInt   n = discs->count;
 
   PetscFunctionBeginUser;
   if (source->mesh) {
     PetscCall(PgPlotMeshValues(source, snapshot, field, value));
     PetscFunctionReturn(0);
   }
-  PetscCall(PgPlotSourceSnapshot(source, snapshot, field->dataset, field->columns, &discs, &rows));
-  PetscCall(PetscMalloc1(discs, value));
-  for (PetscInt i = 0; i < discs; i++) (*value)[i] = field->scale * field->value(&rows[field->columns * i]);
+  PetscCall(PgPlotSourceSnapshot(source, snapshot, field->dataset, field->columns, &n, &rows));
+  PetscCall(PetscMalloc1(n, value));
+  for (PetscInt i = 0; i < n; i++)
+    (*value)[i] = discs->kind && discs->kind[i] > 0.0 ? (PetscReal)NAN
+                                                      : field->scale * field->value(&rows[field->columns * i]);
   PetscCall(PetscFree(rows));
   PetscFunctionReturn(0);
 }

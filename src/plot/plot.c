@@ -98,7 +98,8 @@ PetscErrorCode PgPlotSetFromOptions(PgPlot plot)
       "fields to draw, separated by commas: effective_strain, volumetric_strain, rotation, porosity, "
       "pressure, streamlines, relative_speed (these are the paper's seven), speed, fluid_speed, "
       "angular_velocity, coordination_number, mean_stress; of a continuum there are pressure, displacement, "
-      "volumetric_strain, relative_speed, mean_stress, speed, by default all",
+      "volumetric_strain, relative_speed, mean_stress, speed, by default all; of a liquid (cases wcsph_* and tak_*) "
+      "speed or velocity, pressure, density, by default all",
       fields, sizeof fields, &plot->fields_set));
   PetscCall(PgOptionString(PetscOptionsObject, "-plot_film",
                            "draw this field of all snapshots as numbered PNG files with one colour scale", film,

@@ -41,6 +41,7 @@ typedef struct {
   char       label[128], stem[128]; /* for legends, and for file names */
   PetscBool  study, load;           /* load: STEM-load.dat has been written */
   PetscBool  mesh;                  /* a continuum: cells of a mesh in the place of discs */
+  PetscBool  liquid;                /* particles of a liquid, walls and bodies: the dataset `kind` tells */
   PetscReal  magnified;             /* mesh: how many times displacements are drawn */
   PetscInt   snapshots, chosen;
   PetscReal *time; /* of the snapshots [s] */
@@ -85,21 +86,24 @@ typedef struct {
 enum { PG_PLOT_FIELDS = 24, PG_PLOT_PAPER_FIELDS = 7 };
 PETSC_INTERN const PgPlotField *PgPlotFieldFind(const char name[]);
 PETSC_INTERN const PgPlotField *PgPlotFieldAt(PetscInt index); /* NULL behind the last; first those of the paper */
+/* Those of a liquid; NULL behind the last. */
+PETSC_INTERN const PgPlotField *PgPlotLiquidFieldAt(PetscInt index);
 /* What this name means in this file: on a mesh some fields are others, and most are none (NULL). */
 PETSC_INTERN const PgPlotField *PgPlotFieldIn(const PgPlotSource *source, const PgPlotField *field);
 /* The discs of a snapshot in millimetres; on a mesh the corners of its cells, four by four, with radius 0. */
 typedef struct {
   PetscInt   count;
   PetscReal *x, *y, *r;
+  PetscReal *kind;            /* in files with a liquid: 0 liquid, 1 wall, 2 body; else NULL */
   PetscReal  low[2], high[2]; /* around all discs but those that have burst off */
   PetscInt   outside;         /* how many those are */
 } PgPlotDiscs;
 PETSC_INTERN PetscErrorCode PgPlotDiscsRead(const PgPlotSource *source, PetscInt snapshot, PgPlotDiscs *discs);
 PETSC_INTERN PetscBool      PgPlotDiscsInView(const PgPlotDiscs *discs, PetscInt disc);
 PETSC_INTERN PetscErrorCode PgPlotDiscsDestroy(PgPlotDiscs *discs);
-/* The values of a field, one for each disc, as drawn. */
+/* The values of a field, one for each disc, as drawn; NaN of walls and bodies in a liquid. */
 PETSC_INTERN PetscErrorCode PgPlotFieldRead(const PgPlotSource *source, PetscInt snapshot, const PgPlotField *field,
-                                            PetscInt discs, PetscReal **value);
+                                            const PgPlotDiscs *discs, PetscReal **value);
 PETSC_INTERN PetscErrorCode PgPlotFieldIsThere(const PgPlotSource *source, PetscInt snapshot, const PgPlotField *field,
                                                PetscBool *there);
 /* Limits of the colours. A few discs that burst off must not take all colours: an end at which -plot_clip percent of

@@ -14,6 +14,9 @@ typedef struct {
   char                base[200], when[160];
 } Sheet;
 
+/* Header of that column in the data. */
+#define KIND "  0 liquid, 1 wall, 2 body"
+
 static PetscErrorCode When(const PgPlotSource *source, PetscReal time, char text[], size_t size)
 {
   PetscReal displacement;
@@ -31,7 +34,7 @@ static PetscErrorCode When(const PgPlotSource *source, PetscReal time, char text
   PetscFunctionReturn(0);
 }
 
-/* x, y, r, and a column for each field that is drawn as discs. */
+/* x, y, r, the kind where there is a liquid, and a column for each field that is drawn as discs. */
 static PetscErrorCode WriteDiscs(Sheet *s)
 {
   char  name[300];
@@ -40,14 +43,15 @@ static PetscErrorCode WriteDiscs(Sheet *s)
   PetscFunctionBeginUser;
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-discs.dat", s->base));
   PetscCall(PgPlotFolderCreateFile(&s->plot->folder, name, &file));
-  (void)fprintf(file, "# %s\n# x [mm]  y [mm]  radius [mm]", s->when);
-  for (PetscInt f = 0, column = 3; f < s->fields; f++) {
+  (void)fprintf(file, "# %s\n# x [mm]  y [mm]  radius [mm]%s", s->when, s->discs.kind ? KIND : "");
+  for (PetscInt f = 0, column = s->discs.kind ? 4 : 3; f < s->fields; f++) {
     s->column[f] = s->field[f]->drawing == PG_PLOT_DISCS ? ++column : 0;
     if (s->column[f]) (void)fprintf(file, "  %s [%s]", s->field[f]->name, s->field[f]->unit);
   }
   (void)fputc('\n', file);
   for (PetscInt i = 0; i < s->discs.count; i++) {
     (void)fprintf(file, "%.6g %.6g %.5g", (double)s->discs.x[i], (double)s->discs.y[i], (double)s->discs.r[i]);
+    if (s->discs.kind) (void)fprintf(file, " %d", (int)s->discs.kind[i]);
     for (PetscInt f = 0; f < s->fields; f++)
       if (s->column[f]) (void)fprintf(file, " %.5g", (double)s->value[f][i]);
     (void)fputc('\n', file);
@@ -73,10 +77,11 @@ static PetscErrorCode WriteFlow(Sheet *s, PetscInt f)
   PetscFunctionReturn(0);
 }
 
-/* The f-th of the fields to draw; without being asked, of a continuum all that there are. NULL behind the last. */
+/* The f-th of the fields to draw; without being asked, of a continuum or a liquid all that there are. NULL behind the last. */
 static const PgPlotField *Wanted(PgPlot plot, const PgPlotSource *source, PetscInt f)
 {
   if (source->mesh && !plot->fields_set) return PgPlotMeshFieldAt(f);
+  if (source->liquid && !plot->fields_set) return PgPlotLiquidFieldAt(f);
   return f < plot->fields ? plot->field[f] : NULL;
 }
 
@@ -103,7 +108,7 @@ static PetscErrorCode SheetCreate(PgPlot plot, const PgPlotSource *source, Sheet
     }
     s->field[s->fields] = field = PgPlotFieldIn(source, field);
     if (field->drawing == PG_PLOT_DISCS)
-      PetscCall(PgPlotFieldRead(source, s->snapshot, field, s->discs.count, &s->value[s->fields]));
+      PetscCall(PgPlotFieldRead(source, s->snapshot, field, &s->discs, &s->value[s->fields]));
     s->fields++;
   }
   if (missing[0])
@@ -156,11 +161,20 @@ static void Axes(FILE *f, const PetscReal low[2], const PetscReal high[2])
 
 static const char *Unit(const PgPlotField *field) { return strcmp(field->unit, "1") ? field->unit : "–"; }
 
-/* Discs coloured by a column. Where a colour is white, few discs get an outline. */
-static void DrawDiscs(FILE *f, const char data[], PetscInt column, PetscInt discs, PetscBool is_signed)
+/* Discs coloured by a column, in a liquid walls grey and bodies darker, as column 4 tells. Where a colour is white, few discs
+   get an outline. */
+static void DrawDiscs(FILE *f, const char data[], PetscInt column, PetscInt discs, PetscBool is_signed,
+                      PetscBool liquid)
 {
-  (void)fprintf(f, "plot %s using 1:2:3:%d with circles lc palette fs solid 1.0 %s notitle\n", data, (int)column,
-                is_signed && discs <= 20000 ? "border lc rgb '#b4b4b4'" : "noborder");
+  if (liquid) /* without a place, not without a radius: gnuplot would take one of its own */
+    (void)fprintf(f,
+                  "plot %s using ($4 > 0 ? $1 : NaN):2:3:($4 > 1 ? 0x808080 : 0xb8b8b8) with circles lc rgb variable "
+                  "fs solid 1.0 noborder notitle, \\\n"
+                  "  %s using ($4 > 0 ? NaN : $1):2:3:%d with circles lc palette fs solid 1.0 noborder notitle\n",
+                  data, data, (int)column);
+  else
+    (void)fprintf(f, "plot %s using 1:2:3:%d with circles lc palette fs solid 1.0 %s notitle\n", data, (int)column,
+                  is_signed && discs <= 20000 ? "border lc rgb '#b4b4b4'" : "noborder");
 }
 
 /* Labels of a colour bar: every `step`, with as many digits as tell neighbours apart. */
@@ -243,7 +257,7 @@ static PetscErrorCode DrawField(PgScript *script, const Sheet *s, PetscInt f)
       PetscCall(PetscSNPrintf(name, sizeof name, "%s-%s", s->base, field->name));
       PgPlotMeshDraw(file, name, data, s->column[f]);
     } else {
-      DrawDiscs(file, data, s->column[f], s->discs.count, field->is_signed);
+      DrawDiscs(file, data, s->column[f], s->discs.count, field->is_signed, s->source->liquid);
     }
   }
   PetscFunctionReturn(0);
@@ -464,7 +478,7 @@ static PetscErrorCode Frame(PgPlot plot, const PgPlotSource *source, PetscInt fr
 
   PetscFunctionBeginUser;
   PetscCall(PgPlotDiscsRead(source, frame, &discs));
-  PetscCall(PgPlotFieldRead(source, frame, field, discs.count, &value));
+  PetscCall(PgPlotFieldRead(source, frame, field, &discs, &value));
   PetscCall(PgPlotRangeAdd(discs.count, value, field->is_signed, Clip(plot, source), range));
   for (int c = 0; c < 2; c++) {
     low[c]  = PetscMin(low[c], discs.low[c]);
@@ -472,10 +486,12 @@ static PetscErrorCode Frame(PgPlot plot, const PgPlotSource *source, PetscInt fr
   }
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-%06" PetscInt_FMT ".dat", base, frame));
   PetscCall(PgPlotFolderCreateFile(&plot->folder, name, &file));
-  (void)fprintf(file, "# x [mm]  y [mm]  radius [mm]  %s [%s]\n", field->name, field->unit);
-  for (PetscInt i = 0; i < discs.count; i++)
-    (void)fprintf(file, "%.6g %.6g %.5g %.5g\n", (double)discs.x[i], (double)discs.y[i], (double)discs.r[i],
-                  (double)value[i]);
+  (void)fprintf(file, "# x [mm]  y [mm]  radius [mm]%s  %s [%s]\n", discs.kind ? KIND : "", field->name, field->unit);
+  for (PetscInt i = 0; i < discs.count; i++) {
+    (void)fprintf(file, "%.6g %.6g %.5g ", (double)discs.x[i], (double)discs.y[i], (double)discs.r[i]);
+    if (discs.kind) (void)fprintf(file, "%d ", (int)discs.kind[i]);
+    (void)fprintf(file, "%.5g\n", (double)value[i]);
+  }
   PetscCall(PgPlotFolderCloseFile(&plot->folder, name, &file));
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-%06" PetscInt_FMT ".png", base, frame));
   PetscCall(PgPlotFolderAddPicture(&plot->folder, name));
@@ -523,7 +539,7 @@ PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
       PetscCall(PetscSNPrintf(frame, sizeof frame, "%s-%06" PetscInt_FMT, base, i));
       PgPlotMeshDraw(script.file, frame, data, 4);
     } else {
-      DrawDiscs(script.file, data, 4, count, field->is_signed);
+      DrawDiscs(script.file, data, source->liquid ? 5 : 4, count, field->is_signed, source->liquid);
     }
   }
   PetscCall(PgScriptEnd(&script));

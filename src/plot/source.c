@@ -95,6 +95,7 @@ PetscErrorCode PgPlotSourceOpen(MPI_Comm comm, const char file[], PgPlotSource *
   source->study = (PetscBool)!result;
   if (result) PetscCall(ReadTimes(source));
   if (result) PetscCall(PgPlotMeshOpen(source));
+  if (result) PetscCall(PgPlotSourceHas(source, "/snapshots/000000/kind", &source->liquid));
   PetscFunctionReturn(0);
 }
 

@@ -100,6 +100,23 @@ expect_close "$(sed -n 's/^set cbrange \[.*:\(.*\)\]$/\1/p' ground/ground-pressu
 expect_error 2 'there is no field|has no dataset' "$POROGRAIN_PLOT" ground.h5 -figures none -plot_fields porosity -plot_gnuplot none
 nothing none
 
+# A liquid: its speed, pressure and density; walls and bodies have no colour, and no part in the scale.
+"$POROGRAIN" -options_file "$SOURCE_DIR/options/tak_two_elements.opts" -tak_force_start 0 -end_time 0.02 -output tak.h5 >tak.log
+"$POROGRAIN_PLOT" tak.h5 -figures tak -plot_gnuplot none -plot_film velocity >tak.out
+! grep -q 'no data for' tak.out || fail "$(grep 'no data for' tak.out)"
+[ "$(cd tak && ls tak-*.gp | grep -v history | tr '\n' ' ')" = 'tak-density.gp tak-fields.gp tak-film-speed.gp tak-pressure.gp tak-speed.gp ' ] ||
+  fail "pictures of a liquid: $(ls tak)"
+for f in fields speed film-speed; do
+  grep -q 'using (\$4 > 0 ? \$1 : NaN):2:3:.* with circles lc rgb variable' "tak/tak-$f.gp" || fail "walls and bodies of tak-$f.gp"
+done
+awk '!/^#/ { n[$4]++; if (($4 > 0) != ($5 == "nan")) bad = 1; if ($4 == 0 && $5 > most) most = $5 }
+  END { if (bad || !n[0] || !n[1] || !n[2]) exit 1; print most }' tak/tak-discs.dat >most || fail 'kinds and values of a liquid'
+# the colours end at the largest speed, or at a lower one and the title tells the largest: four digits
+largest=$(sed -n 's/^set title "speed.*largest \([0-9.e+-]*\).*/\1/p' tak/tak-speed.gp)
+expect_close "${largest:-$(sed -n 's/^set cbrange \[.*:\(.*\)\]$/\1/p' tak/tak-speed.gp)}" "$(cat most)" 1e-3
+"$POROGRAIN_PLOT" tak.h5 -figures density -plot_fields density -plot_gnuplot none >density.out
+[ -s density/tak-density.gp ] && [ ! -e density/tak-speed.gp ] || fail 'density of a liquid alone'
+
 # A load that goes nowhere has no curve: no empty figure.
 "$POROGRAIN" -case bed_darcy -output bed.h5 >bed.log
 "$POROGRAIN_PLOT" bed.h5 -figures still -plot_fields pressure -plot_gnuplot none >still.out
@@ -161,6 +178,13 @@ for f in load $wet-{effective_strain,volumetric_strain,rotation,porosity,pressur
   tail -n 3 "pictures/$f.svg" | grep -q '</svg>' || fail "$f.svg has no end"
 done
 [ "$(ls pictures | grep -c "^$wet-film-pressure-00000[012].png\$")" -eq 3 ] || fail 'frames of the film'
+# Every wall and every body of a liquid is there, in its grey.
+"$POROGRAIN_PLOT" tak.h5 -figures liquid -plot_fields velocity -plot_format svg >liquid.out
+for kind in '1 184' '2 128'; do
+  read -r number grey <<<"$kind"
+  [ "$(grep -c "<polygon fill = 'rgb($grey, $grey, $grey)'" liquid/tak-speed.svg)" -eq \
+    "$(awk -v kind="$number" '!/^#/ && $4 == kind' liquid/tak-discs.dat | wc -l)" ] || fail "grey discs of kind $number"
+done
 # Run again by hand, the scripts draw the same.
 cp pictures/load.png before.png
 (cd pictures && gnuplot load.gp)
