@@ -182,7 +182,8 @@ static PetscReal Cut(PetscInt n, const PetscReal sorted[], PetscReal clip)
   const PetscReal middle = sorted[n / 2], most = sorted[n - 1];
   const PetscReal rest = sorted[PetscMin(n - 1, (PetscInt)((1.0 - clip) * (PetscReal)n))];
 
-  return most - middle > 1.5 * (rest - middle) && rest > middle ? rest : most;
+  /* where all but a few are 0, or differ from it by round-off, the few are what is to be seen */
+  return most - middle > 1.5 * (rest - middle) && rest - middle > 1e-6 * (most - middle) ? rest : most;
 }
 
 PetscErrorCode PgPlotRangeAdd(PetscInt count, const PetscReal value[], PetscBool is_signed, PetscReal clip,
@@ -215,11 +216,16 @@ PetscErrorCode PgPlotRangeAdd(PetscInt count, const PetscReal value[], PetscBool
   PetscFunctionReturn(0);
 }
 
+PetscBool PgPlotRangeIsZero(const PgPlotRange *range) { return (PetscBool)(range->min == 0.0 && range->max == 0.0); }
+
 void PgPlotRangeFinish(PetscBool is_signed, PgPlotRange *range)
 {
   PetscReal least;
 
-  if (!(range->low <= range->high)) range->low = range->high = range->min = range->max = 0.0;
+  if (!(range->low <= range->high)) { /* no values */
+    range->low = range->high = 0.0;
+    range->min = range->max = (PetscReal)NAN;
+  }
   /* a scale that begins near 0 begins at 0 */
   if (!is_signed && range->low > 0.0 && range->low < 0.2 * range->high) range->low = 0.0;
   /* gnuplot wants some width; so do its five digits on the axis */

@@ -118,7 +118,9 @@ typedef struct {
   }
 PETSC_INTERN PetscErrorCode PgPlotRangeAdd(PetscInt count, const PetscReal value[], PetscBool is_signed, PetscReal clip,
                                            PgPlotRange *range);
-PETSC_INTERN void           PgPlotRangeFinish(PetscBool is_signed, PgPlotRange *range);
+/* Finished, of values that are all 0: a scale would be made up. */
+PETSC_INTERN PetscBool PgPlotRangeIsZero(const PgPlotRange *range);
+PETSC_INTERN void      PgPlotRangeFinish(PetscBool is_signed, PgPlotRange *range);
 /* A round number near x. */
 PETSC_INTERN PetscReal PgPlotRound(PetscReal x);
 

@@ -214,7 +214,7 @@ static PetscReal BarStep(const Sheet *s, PetscInt f)
 /* Width that the labels of a colour bar need [pixels]. */
 static PetscReal BarWidth(const Sheet *s, PetscInt f)
 {
-  if (s->field[f]->drawing == PG_PLOT_STREAMLINES) return 0.0;
+  if (s->field[f]->drawing == PG_PLOT_STREAMLINES || PgPlotRangeIsZero(&s->range[f])) return 0.0;
   return CHARACTER * (PetscReal)LabelsOf(&s->range[f], BarStep(s, f)).length;
 }
 
@@ -222,6 +222,7 @@ static void LabelBar(FILE *file, const PgPlotRange *range, PetscReal step)
 {
   const BarLabels labels = LabelsOf(range, step);
 
+  if (PgPlotRangeIsZero(range)) (void)fprintf(file, "unset colorbox\n");
   (void)fprintf(file, "set cbtics %.5g\nset format cb '%s'\n", (double)labels.step, labels.format);
 }
 
@@ -287,6 +288,10 @@ static void Title(FILE *file, const Sheet *s, PetscInt f, PetscBool sheet)
   if (!lines) (void)fprintf(file, " [%s]", Unit(field));
   if (!sheet) (void)fprintf(file, "\\n{/*0.85 %s}", s->when);
   (void)fprintf(file, "\\n{/*0.85 ");
+  if (!lines && PgPlotRangeIsZero(range)) {
+    (void)fprintf(file, "0 everywhere }\"\n");
+    return;
+  }
   if (below) (void)fprintf(file, "least %.4g", (double)range->min);
   if (above) (void)fprintf(file, "%slargest %.4g", below ? ", " : "", (double)range->max);
   (void)fprintf(file, " }\"\n");
@@ -531,8 +536,8 @@ PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
   for (PetscInt i = 0; i < source->snapshots; i++) {
     char data[300];
     PetscCall(When(source, source->time[i], when, sizeof when));
-    (void)fprintf(script.file, "set output '%s-%06d.png'\nset title \"%s [%s]\\n{/*0.85 %s}\"\n", base, (int)i,
-                  field->title, Unit(plot->film), when);
+    (void)fprintf(script.file, "set output '%s-%06d.png'\nset title \"%s [%s]\\n{/*0.85 %s%s}\"\n", base, (int)i,
+                  field->title, Unit(field), when, PgPlotRangeIsZero(&range) ? ", 0 everywhere" : "");
     PetscCall(PetscSNPrintf(data, sizeof data, "'%s-%06" PetscInt_FMT ".dat'", base, i));
     if (source->mesh) {
       char frame[300];
