@@ -180,6 +180,26 @@ PETSC_INTERN const char *PgScriptQuote(const char text[], char quoted[], size_t 
 PETSC_INTERN PetscErrorCode PgScriptPalette(PgScript *script, PetscBool is_signed, PetscInt steps,
                                             const PgPlotRange *range);
 
+/* ---- drawing.c: pieces of pictures of discs ---- */
+
+#define PG_PLOT_CHARACTER 8.0 /* width of a digit in 11 points, and a little [pixels] */
+/* Labels of a colour bar: every `step`, with as many digits as tell neighbours apart. */
+typedef struct {
+  PetscReal step;
+  char      format[16];
+  PetscInt  length; /* characters of the longest */
+} PgPlotBarLabels;
+
+PETSC_INTERN PgPlotBarLabels PgPlotBarLabelsOf(const PgPlotRange *range, PetscReal step);
+PETSC_INTERN void            PgPlotLabelBar(FILE *file, const PgPlotRange *range, PetscReal step);
+PETSC_INTERN PetscReal       PgPlotMargin(const PetscReal low[2], const PetscReal high[2]);
+PETSC_INTERN PetscReal       PgPlotTicStep(const PetscReal low[2], const PetscReal high[2], int axis);
+PETSC_INTERN void            PgPlotAxes(FILE *f, const PetscReal low[2], const PetscReal high[2]);
+PETSC_INTERN void PgPlotPixels(const PetscReal low[2], const PetscReal high[2], PetscReal longest, PetscReal pixels[2]);
+PETSC_INTERN const char *PgPlotUnit(const PgPlotField *field);
+PETSC_INTERN void PgPlotDrawDiscs(FILE *f, const char data[], PetscInt column, PetscInt discs, PetscBool is_signed,
+                                  PetscBool liquid);
+
 /* ---- figures: snapshots.c, curves.c, studies.c ---- */
 
 PETSC_INTERN PetscErrorCode PgPlotSnapshot(PgPlot plot, const PgPlotSource *source);

@@ -128,80 +128,7 @@ static PetscErrorCode SheetDestroy(Sheet *s)
   PetscFunctionReturn(0);
 }
 
-#define MARGIN    0.02
-#define CHARACTER 8.0     /* of a digit in 11 points, and a little [pixels] */
 enum { MOST_SVG = 2500 }; /* discs of a picture: gnuplot writes 2 to 4 kB for each */
-
-/* On each side of the axes [mm]. */
-static PetscReal Margin(const PetscReal low[2], const PetscReal high[2])
-{
-  return MARGIN * PetscMax(high[0] - low[0], high[1] - low[1]);
-}
-
-/* Between two tics: the same on both axes, but where the shorter would have less than two. */
-static PetscReal TicStep(const PetscReal low[2], const PetscReal high[2], int axis)
-{
-  const PetscReal longest = PetscMax(high[0] - low[0], high[1] - low[1]);
-
-  /* a third is rounded to less than half */
-  return PetscMin(PgPlotRound(longest / 5.0), PgPlotRound((high[axis] - low[axis]) / 3.0));
-}
-
-/* Axes in mm, the same scale on both, `low` to `high` and a margin. */
-static void Axes(FILE *f, const PetscReal low[2], const PetscReal high[2])
-{
-  const PetscReal margin = Margin(low, high);
-
-  (void)fprintf(f,
-                "set size ratio -1\nset xrange [%.5g:%.5g]\nset yrange [%.5g:%.5g]\nset tics out nomirror\n"
-                "set xtics %.3g\nset ytics %.3g\nset border 3 lc rgb '#666666'\n",
-                (double)(low[0] - margin), (double)(high[0] + margin), (double)(low[1] - margin),
-                (double)(high[1] + margin), (double)TicStep(low, high, 0), (double)TicStep(low, high, 1));
-}
-
-static const char *Unit(const PgPlotField *field) { return strcmp(field->unit, "1") ? field->unit : "–"; }
-
-/* Discs coloured by a column, in a liquid walls grey and bodies darker, as column 4 tells. Where a colour is white, few discs
-   get an outline. */
-static void DrawDiscs(FILE *f, const char data[], PetscInt column, PetscInt discs, PetscBool is_signed,
-                      PetscBool liquid)
-{
-  if (liquid) /* without a place, not without a radius: gnuplot would take one of its own */
-    (void)fprintf(f,
-                  "plot %s using ($4 > 0 ? $1 : NaN):2:3:($4 > 1 ? 0x808080 : 0xb8b8b8) with circles lc rgb variable "
-                  "fs solid 1.0 noborder notitle, \\\n"
-                  "  %s using ($4 > 0 ? NaN : $1):2:3:%d with circles lc palette fs solid 1.0 noborder notitle\n",
-                  data, data, (int)column);
-  else
-    (void)fprintf(f, "plot %s using 1:2:3:%d with circles lc palette fs solid 1.0 %s notitle\n", data, (int)column,
-                  is_signed && discs <= 20000 ? "border lc rgb '#b4b4b4'" : "noborder");
-}
-
-/* Labels of a colour bar: every `step`, with as many digits as tell neighbours apart. */
-typedef struct {
-  PetscReal step;
-  char      format[16];
-  PetscInt  length; /* characters of the longest */
-} BarLabels;
-
-static BarLabels LabelsOf(const PgPlotRange *range, PetscReal step)
-{
-  const PetscReal most   = PetscMax(PetscAbsReal(range->low), PetscAbsReal(range->high));
-  const int       finest = (int)PetscFloorReal(PetscLog10Real(step) + 1e-9);
-  const int       first  = most > 0.0 ? (int)PetscFloorReal(PetscLog10Real(most)) : finest;
-  BarLabels       labels;
-  char            text[2][64];
-
-  labels.step = step;
-  if (first < 6 && finest > -5)
-    (void)snprintf(labels.format, sizeof labels.format, "%%.%df", PetscMax(0, -finest));
-  else
-    (void)snprintf(labels.format, sizeof labels.format, "%%.%de", PetscMax(0, first - finest));
-  for (int end = 0; end < 2; end++)
-    (void)snprintf(text[end], sizeof *text, labels.format, (double)(end ? range->high : range->low)); /* NOLINT */
-  labels.length = (PetscInt)PetscMax(strlen(text[0]), strlen(text[1]));
-  return labels;
-}
 
 static PetscReal BarStep(const Sheet *s, PetscInt f)
 {
@@ -215,15 +142,7 @@ static PetscReal BarStep(const Sheet *s, PetscInt f)
 static PetscReal BarWidth(const Sheet *s, PetscInt f)
 {
   if (s->field[f]->drawing == PG_PLOT_STREAMLINES || PgPlotRangeIsZero(&s->range[f])) return 0.0;
-  return CHARACTER * (PetscReal)LabelsOf(&s->range[f], BarStep(s, f)).length;
-}
-
-static void LabelBar(FILE *file, const PgPlotRange *range, PetscReal step)
-{
-  const BarLabels labels = LabelsOf(range, step);
-
-  if (PgPlotRangeIsZero(range)) (void)fprintf(file, "unset colorbox\n");
-  (void)fprintf(file, "set cbtics %.5g\nset format cb '%s'\n", (double)labels.step, labels.format);
+  return PG_PLOT_CHARACTER * (PetscReal)PgPlotBarLabelsOf(&s->range[f], BarStep(s, f)).length;
 }
 
 static PetscErrorCode DrawField(PgScript *script, const Sheet *s, PetscInt f)
@@ -245,20 +164,20 @@ static PetscErrorCode DrawField(PgScript *script, const Sheet *s, PetscInt f)
         data, s->base, s->base);
   } else if (field->drawing == PG_PLOT_CONTOURS) {
     PetscCall(PgScriptPalette(script, PETSC_FALSE, s->colours[f], range));
-    LabelBar(file, range, BarStep(s, f));
+    PgPlotLabelBar(file, range, BarStep(s, f));
     (void)fprintf(file,
                   "plot '%s-grid.dat' using 1:2:3 with image notitle, \\\n"
                   "  '%s-contours.dat' using 1:2 with lines lc rgb '#404040' lw 0.5 notitle\n",
                   s->base, s->base);
   } else {
     PetscCall(PgScriptPalette(script, field->is_signed, 0, range));
-    LabelBar(file, range, BarStep(s, f));
+    PgPlotLabelBar(file, range, BarStep(s, f));
     if (s->source->mesh) {
       char name[256];
       PetscCall(PetscSNPrintf(name, sizeof name, "%s-%s", s->base, field->name));
       PgPlotMeshDraw(file, name, data, s->column[f]);
     } else {
-      DrawDiscs(file, data, s->column[f], s->discs.count, field->is_signed, s->source->liquid);
+      PgPlotDrawDiscs(file, data, s->column[f], s->discs.count, field->is_signed, s->source->liquid);
     }
   }
   PetscFunctionReturn(0);
@@ -285,7 +204,7 @@ static void Title(FILE *file, const Sheet *s, PetscInt f, PetscBool sheet)
 
   Letter(field, letter);
   (void)fprintf(file, "set title \"%s%s", letter, field->title);
-  if (!lines) (void)fprintf(file, " [%s]", Unit(field));
+  if (!lines) (void)fprintf(file, " [%s]", PgPlotUnit(field));
   if (!sheet) (void)fprintf(file, "\\n{/*0.85 %s}", s->when);
   (void)fprintf(file, "\\n{/*0.85 ");
   if (!lines && PgPlotRangeIsZero(range)) {
@@ -297,16 +216,6 @@ static void Title(FILE *file, const Sheet *s, PetscInt f, PetscBool sheet)
   (void)fprintf(file, " }\"\n");
 }
 
-/* Size of the axes of a picture, whose longer side has `longest` pixels. */
-static void Pixels(const PetscReal low[2], const PetscReal high[2], PetscReal longest, PetscReal pixels[2])
-{
-  const PetscReal margin = 2.0 * Margin(low, high);
-  const PetscReal width = high[0] - low[0] + margin, height = high[1] - low[1] + margin;
-
-  pixels[0] = PetscMax(120.0, longest * width / PetscMax(width, height));
-  pixels[1] = PetscMax(120.0, longest * height / PetscMax(width, height));
-}
-
 static PetscErrorCode Single(Sheet *s, PetscInt f)
 {
   PgScript        script;
@@ -316,11 +225,11 @@ static PetscErrorCode Single(Sheet *s, PetscInt f)
 
   PetscFunctionBeginUser;
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-%s", s->base, s->field[f]->name));
-  Pixels(s->discs.low, s->discs.high, 600.0, pixels);
+  PgPlotPixels(s->discs.low, s->discs.high, 600.0, pixels);
   PetscCall(PgScriptBegin(s->plot, name, pixels[0] + 160.0 + PetscMax(60.0, BarWidth(s, f)), pixels[1] + 140.0,
                           png_only, &script));
   PetscCall(PgScriptPicture(&script));
-  Axes(script.file, s->discs.low, s->discs.high);
+  PgPlotAxes(script.file, s->discs.low, s->discs.high);
   (void)fprintf(script.file, "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\n");
   Title(script.file, s, f, PETSC_FALSE);
   PetscCall(DrawField(&script, s, f));
@@ -342,7 +251,7 @@ static PetscReal CellHeight(const Cells *c) { return c->pixels[1] + ABOVE + BELO
 /* Width of "y [mm]" with the numbers at the tics [pixels]; of three digits the least, which the load needs as well. */
 static PetscReal LeftOf(const PgPlotDiscs *discs)
 {
-  const PetscReal step = TicStep(discs->low, discs->high, 1), margin = Margin(discs->low, discs->high);
+  const PetscReal step = PgPlotTicStep(discs->low, discs->high, 1), margin = PgPlotMargin(discs->low, discs->high);
   const PetscInt  first   = (PetscInt)PetscCeilReal((discs->low[1] - margin) / step);
   size_t          longest = 0;
 
@@ -351,7 +260,7 @@ static PetscReal LeftOf(const PgPlotDiscs *discs)
     (void)snprintf(text, sizeof text, "%g", (double)((PetscReal)k * step)); /* as gnuplot writes it */
     longest = PetscMax(longest, strlen(text));
   }
-  return PetscMax(LEAST_LEFT, LABEL + CHARACTER * (PetscReal)longest);
+  return PetscMax(LEAST_LEFT, LABEL + PG_PLOT_CHARACTER * (PetscReal)longest);
 }
 
 static void Place(FILE *file, PetscInt cell, const Cells *cells)
@@ -408,14 +317,14 @@ static PetscErrorCode All(Sheet *s)
   PetscFunctionBeginUser;
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-fields", s->base));
   cells.left = LeftOf(&s->discs);
-  Pixels(s->discs.low, s->discs.high, 380.0, cells.pixels);
+  PgPlotPixels(s->discs.low, s->discs.high, 380.0, cells.pixels);
   for (PetscInt f = 0; f < s->fields; f++) cells.bar = PetscMax(cells.bar, BarWidth(s, f));
   PetscCall(PgScriptBegin(s->plot, name, CellWidth(&cells) * (PetscReal)columns,
                           CellHeight(&cells) * (PetscReal)cells.rows + HEAD, png_only, &script));
   PetscCall(PgScriptPicture(&script));
   (void)fprintf(script.file, "set multiplot title '%s: %s' noenhanced\n",
                 PgScriptQuote(s->source->label, quoted, sizeof quoted), s->when);
-  Axes(script.file, s->discs.low, s->discs.high);
+  PgPlotAxes(script.file, s->discs.low, s->discs.high);
   for (PetscInt f = 0; f < count; f++) {
     Place(script.file, f, &cells);
     if (f == s->fields) {
@@ -524,27 +433,27 @@ PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
     PetscCall(Frame(plot, source, i, base, field, &range, low, high, &count));
   PgPlotRangeFinish(field->is_signed, &range);
   step = PgPlotRound((range.high - range.low) / 6.0);
-  bar  = 2.0 * PetscCeilReal(4.0 * (PetscReal)PetscMax(8, LabelsOf(&range, step).length));
+  bar  = 2.0 * PetscCeilReal(4.0 * (PetscReal)PetscMax(8, PgPlotBarLabelsOf(&range, step).length));
   /* one scale and one frame for all; an even number of pixels, as video encoders want */
-  Pixels(low, high, 600.0, pixels);
+  PgPlotPixels(low, high, 600.0, pixels);
   PetscCall(PgScriptBegin(plot, base, 2.0 * PetscFloorReal(0.5 * pixels[0]) + 156.0 + bar,
                           2.0 * PetscFloorReal(0.5 * pixels[1]) + 120.0, PETSC_TRUE, &script));
-  Axes(script.file, low, high);
+  PgPlotAxes(script.file, low, high);
   (void)fprintf(script.file, "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\n");
   PetscCall(PgScriptPalette(&script, field->is_signed, 0, &range));
-  LabelBar(script.file, &range, step);
+  PgPlotLabelBar(script.file, &range, step);
   for (PetscInt i = 0; i < source->snapshots; i++) {
     char data[300];
     PetscCall(When(source, source->time[i], when, sizeof when));
     (void)fprintf(script.file, "set output '%s-%06d.png'\nset title \"%s [%s]\\n{/*0.85 %s%s}\"\n", base, (int)i,
-                  field->title, Unit(field), when, PgPlotRangeIsZero(&range) ? ", 0 everywhere" : "");
+                  field->title, PgPlotUnit(field), when, PgPlotRangeIsZero(&range) ? ", 0 everywhere" : "");
     PetscCall(PetscSNPrintf(data, sizeof data, "'%s-%06" PetscInt_FMT ".dat'", base, i));
     if (source->mesh) {
       char frame[300];
       PetscCall(PetscSNPrintf(frame, sizeof frame, "%s-%06" PetscInt_FMT, base, i));
       PgPlotMeshDraw(script.file, frame, data, 4);
     } else {
-      DrawDiscs(script.file, data, source->liquid ? 5 : 4, count, field->is_signed, source->liquid);
+      PgPlotDrawDiscs(script.file, data, source->liquid ? 5 : 4, count, field->is_signed, source->liquid);
     }
   }
   PetscCall(PgScriptEnd(&script));
