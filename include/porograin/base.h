@@ -182,6 +182,40 @@ PETSC_EXTERN void PgTerminalClear(void);
 /* Takes the line away for good; PgFinalize() does it too. */
 PETSC_EXTERN void PgTerminalEnd(void);
 
+/* ---- how far a run is, and what it has cost ---- */
+
+typedef enum { PG_PROGRESS_AUTO, PG_PROGRESS_BAR, PG_PROGRESS_LINES, PG_PROGRESS_NONE } PgProgress;
+
+typedef struct {
+  MPI_Comm       comm;
+  PetscMPIInt    rank;
+  PgProgress     progress;       /* the same on all ranks; never AUTO once options have been read */
+  PetscInt       first, last;    /* step from which this program goes on, and that at the end of the run */
+  PetscLogDouble started, shown; /* the clock at the start, and when the bar was last drawn [s] */
+} PgMeter;
+/* Reads -progress and, unless `every` is NULL, -progress_every into it [s]. Collective. */
+PETSC_EXTERN PetscErrorCode PgMeterSetFromOptions(MPI_Comm comm, PetscOptionItems *PetscOptionsObject, PgMeter *meter,
+                                                  PetscReal *every);
+/* The clock of the run starts here. */
+PETSC_EXTERN PetscErrorCode PgMeterStart(PgMeter *meter, MPI_Comm comm, PetscInt first, PetscInt last);
+/* Whether the bar is to be drawn after this step: on rank 0 alone, of a run that has a bar, and not too often. */
+PETSC_EXTERN PetscBool PgMeterBarDue(const PgMeter *meter, PetscInt step);
+/* Draws it: simulated time and its end [s], `more` (which may be empty), and the time that is left by the clock. */
+PETSC_EXTERN void PgMeterBar(PgMeter *meter, PetscInt step, PetscReal time, PetscReal end, const char more[]);
+/* For the summary: the time since the start for so many steps of `count` things, of which one is called `one`, and the
+   part of it that each log stage has taken on rank 0. Collective. */
+PETSC_EXTERN PetscErrorCode PgMeterTimes(const PgMeter *meter, PetscInt steps, PetscInt count, const char one[]);
+
+/* Solves of a run, and their iterations in all and at most. Start with zeros. */
+typedef struct {
+  PetscInt   solves, most;
+  PetscInt64 iterations;
+} PgSolves;
+PETSC_EXTERN void PgSolvesAdd(PgSolves *work, PetscInt iterations);
+/* For the summary: "5 pressure solves, 60 iterations, ...", with `more` (which may be empty) behind it. Collective. */
+PETSC_EXTERN PetscErrorCode PgMeterSolves(MPI_Comm comm, const PgSolves *work, const char what[], const char unit[],
+                                          const char more[]);
+
 /* ---- one record among those of all ranks ---- */
 
 /* The rank with the largest value, of equal ones with the smallest ids (first, then second), for a message that is the

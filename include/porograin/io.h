@@ -46,6 +46,8 @@ PETSC_EXTERN PetscErrorCode PgOutputSnapshot(PgOutput output, PetscReal time, Pe
 PETSC_EXTERN PetscErrorCode PgOutputHistory(PgOutput output, const PetscReal row[]);
 PETSC_EXTERN PetscErrorCode PgOutputGetSnapshotCount(PgOutput output, PetscInt *count);
 PETSC_EXTERN PetscErrorCode PgOutputGetRowCount(PgOutput output, PetscInt *count);
+/* For the summary of a run: prints the names of the three files, and how many snapshots and rows they hold. Collective. */
+PETSC_EXTERN PetscErrorCode PgOutputTell(PgOutput output);
 /* Writes rows that wait to the file. Collective. */
 PETSC_EXTERN PetscErrorCode PgOutputFlush(PgOutput output);
 /* Marks used and unused options in /provenance and writes what is still buffered. Collective. */

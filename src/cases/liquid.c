@@ -41,6 +41,7 @@ static PetscErrorCode RunOptions(PgLiquid l)
   PetscCall(PgOptionReal(PetscOptionsObject, "-history_every",
                          "time between history rows; default a hundredth of the run", "s", 0.0, 1e15, &l->history,
                          NULL));
+  PetscCall(PgMeterSetFromOptions(l->comm, PetscOptionsObject, &l->meter, NULL));
   PetscOptionsEnd();
   PetscFunctionReturn(0);
 }
@@ -273,7 +274,8 @@ static PetscErrorCode Observe(PgLiquid l, PetscInt step)
   const PetscInt  every    = PetscMax(1, (PetscInt)(l->every / l->dt + 0.5));
   const PetscInt  history  = PetscMax(1, (PetscInt)(l->history / l->dt + 0.5));
   const PetscInt  progress = PetscMax(1, l->steps / 20);
-  const PetscBool row_due = (PetscBool)(last || step % history == 0), told = (PetscBool)(last || step % progress == 0);
+  const PetscBool row_due  = (PetscBool)(last || step % history == 0);
+  const PetscBool told     = (PetscBool)(last || (l->meter.progress == PG_PROGRESS_LINES && step % progress == 0));
   PetscReal       row[COLUMNS];
 
   PetscFunctionBeginUser;
@@ -297,12 +299,28 @@ static PetscErrorCode Observe(PgLiquid l, PetscInt step)
 static PetscErrorCode TimeLoop(PgLiquid l)
 {
   PetscFunctionBeginUser;
+  PetscCall(PgMeterStart(&l->meter, l->comm, 0, l->steps));
   PetscCall(Observe(l, 0));
   for (PetscInt step = 1; step <= l->steps; step++) {
     PetscCall(PgWcsphStep(l->wcsph, l->dt));
     PetscCall(Observe(l, step));
+    if (PgMeterBarDue(&l->meter, step)) PgMeterBar(&l->meter, step, (PetscReal)step * l->dt, l->end, "");
   }
   if (l->output) PetscCall(PgOutputFinish(l->output));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Summary(PgLiquid l)
+{
+  PgParticles particles;
+  PetscInt    count;
+
+  PetscFunctionBeginUser;
+  PgTerminalEnd();
+  PetscCall(PgWcsphGetParticles(l->wcsph, &particles));
+  PetscCall(PgParticlesGetSizes(particles, NULL, NULL, &count));
+  PetscCall(PgMeterTimes(&l->meter, l->steps, count, "particle"));
+  if (l->output) PetscCall(PgOutputTell(l->output));
   PetscFunctionReturn(0);
 }
 
@@ -323,6 +341,7 @@ PetscErrorCode PgLiquidRun(PgLiquid l, const char output[])
   PetscCall(PgWcsphView(l->wcsph, PETSC_VIEWER_STDOUT_(l->comm)));
   err = TimeLoop(l);
   if (!err && output[0]) PetscCall(PetscPrintf(l->comm, "wrote %s\n", output));
+  if (!err) PetscCall(Summary(l));
   PetscCall(PgOutputDestroy(&l->output));
   PetscFunctionReturn(err);
 }

@@ -20,6 +20,7 @@ struct PgLiquid_s {
   PetscInt               steps;
   PetscBool              tank, from_rest; /* wcsph_hydrostatic: side walls; starts without pressure */
   PgOutput               output;          /* NULL: none */
+  PgMeter                meter;
 };
 
 struct PgLiquidProblem_s {

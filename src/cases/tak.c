@@ -36,6 +36,7 @@ PetscErrorCode PgTakRunOptions(PgTak *tak, PetscReal end)
   PetscCall(PgOptionReal(PetscOptionsObject, "-history_every",
                          "time between history rows; default a thousandth of the run", "s", 0.0, 1e15, &tak->history,
                          NULL));
+  PetscCall(PgMeterSetFromOptions(tak->comm, PetscOptionsObject, &tak->meter, NULL));
   PetscOptionsEnd();
   PetscCall(PgWcsphSetSpacing(tak->wcsph, tak->dx));
   PetscCall(PgWcsphSetFromOptions(tak->wcsph));
@@ -99,6 +100,7 @@ PetscErrorCode PgTakStart(PgTak *tak, const char output[], PetscInt columns, con
   if (output[0]) PetscCall(PgOutputCreate(particles, output, columns, column, &tak->output));
   PetscCall(PgWcsphView(tak->wcsph, PETSC_VIEWER_STDOUT_(tak->comm)));
   PetscCall(PgBodiesView(tak->bodies, PETSC_VIEWER_STDOUT_(tak->comm)));
+  PetscCall(PgMeterStart(&tak->meter, tak->comm, 0, tak->steps));
   PetscFunctionReturn(0);
 }
 
@@ -124,7 +126,8 @@ PetscErrorCode PgTakDue(const PgTak *tak, PetscBool *row, PetscBool *line, Petsc
 
   PetscFunctionBeginUser;
   *row      = (PetscBool)(tak->output && (last || tak->step % history == 0));
-  *line     = (PetscBool)(last || tak->step % PetscMax(1, tak->steps / 20) == 0);
+  *line     = (PetscBool)(last ||
+                      (tak->meter.progress == PG_PROGRESS_LINES && tak->step % PetscMax(1, tak->steps / 20) == 0));
   *snapshot = (PetscBool)(tak->output && (last || tak->step % every == 0));
   PetscFunctionReturn(0);
 }
@@ -136,5 +139,26 @@ PetscErrorCode PgTakWrite(PgTak *tak, PetscBool row, PetscBool snapshot, PetscRe
   if (row) PetscCall(PgOutputHistory(tak->output, values));
   if (snapshot) PetscCall(PgOutputSnapshot(tak->output, time, 0, NULL));
   PetscCall(PgStagePop());
+  PetscFunctionReturn(0);
+}
+
+void PgTakBar(PgTak *tak)
+{
+  if (PgMeterBarDue(&tak->meter, tak->step))
+    PgMeterBar(&tak->meter, tak->step, (PetscReal)tak->step * tak->dt, tak->end, "");
+}
+
+PetscErrorCode PgTakSummary(PgTak *tak, const PgSolves *solves)
+{
+  PgParticles particles;
+  PetscInt    count;
+
+  PetscFunctionBeginUser;
+  PgTerminalEnd();
+  PetscCall(PgWcsphGetParticles(tak->wcsph, &particles));
+  PetscCall(PgParticlesGetSizes(particles, NULL, NULL, &count));
+  PetscCall(PgMeterTimes(&tak->meter, tak->steps, count, "particle"));
+  if (solves) PetscCall(PgMeterSolves(tak->comm, solves, "solves of the zones", "iterations", ""));
+  if (tak->output) PetscCall(PgOutputTell(tak->output));
   PetscFunctionReturn(0);
 }

@@ -13,6 +13,7 @@ typedef struct {
   PetscReal every, history; /* between snapshots, between rows [s], < 0: default */
   PetscInt  steps, step;
   PgOutput  output; /* NULL: none */
+  PgMeter   meter;
 } PgTak;
 
 /* Liquid and bodies with their options, -dt and its kin. */
@@ -26,9 +27,12 @@ PETSC_INTERN PetscErrorCode PgTakChooseSteps(PgTak *tak); /* after PgWcsphSetUp(
 /* Refuses unread options, makes the result file. */
 PETSC_INTERN PetscErrorCode PgTakStart(PgTak *tak, const char output[], PetscInt columns, const PgColumn column[],
                                        PetscErrorCode (*probe)(void *), void *context);
+/* What the run has cost, and its files; `solves` of what else is in it, which may be NULL. Collective. */
+PETSC_INTERN PetscErrorCode PgTakSummary(PgTak *tak, const PgSolves *solves);
 /* One step of liquid and bodies. */
 PETSC_INTERN PetscErrorCode PgTakStep(PgTak *tak);
 /* What is due now: a row of the history, a line on the terminal, a snapshot. */
 PETSC_INTERN PetscErrorCode PgTakDue(const PgTak *tak, PetscBool *row, PetscBool *line, PetscBool *snapshot);
+PETSC_INTERN void           PgTakBar(PgTak *tak); /* after each step */
 PETSC_INTERN PetscErrorCode PgTakWrite(PgTak *tak, PetscBool row, PetscBool snapshot, PetscReal time,
                                        const PetscReal values[]);

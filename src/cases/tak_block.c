@@ -29,6 +29,7 @@ typedef struct {
 typedef struct {
   PgTak     tak;
   Zone      zone[ZONES];
+  PgSolves  solves;     /* of the zones */
   PetscReal traction;   /* [Pa] */
   PetscReal E, nu, rho; /* of the bodies */
   PetscInt  cells[2];   /* of each zone, along and across */
@@ -300,8 +301,11 @@ static PetscErrorCode StepZones(Block *b)
     Zone          *z = &b->zone[k];
     const PetscInt n = 2 * (z->count + 1);
     PgFemNodes     nodes;
+    PgFemStats     stats;
 
     PetscCall(PgFemStep(z->fem, dt));
+    PetscCall(PgFemGetStats(z->fem, &stats));
+    PgSolvesAdd(&b->solves, stats.iterations);
     PetscCall(PgFemGetNodes(z->fem, &nodes));
     PetscCall(PetscArraycpy(z->u0, z->u1, n));
     PetscCall(PetscArrayzero(z->u1, n));
@@ -469,6 +473,7 @@ static PetscErrorCode TimeLoop(Block *b)
     PetscCall(PgTakStep(&b->tak));
     PetscCall(TakeForces(b));
     PetscCall(Observe(b));
+    PgTakBar(&b->tak);
   }
   if (b->tak.output) PetscCall(PgOutputFinish(b->tak.output));
   PetscFunctionReturn(0);
@@ -489,6 +494,7 @@ static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
   for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemView(b->zone[k].fem, PETSC_VIEWER_STDOUT_(comm)));
   err = TimeLoop(b);
   if (!err && output[0]) PetscCall(PetscPrintf(comm, "wrote %s\n", output));
+  if (!err) PetscCall(PgTakSummary(&b->tak, &b->solves));
   PetscFunctionReturn(err);
 }
 

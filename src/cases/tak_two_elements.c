@@ -224,6 +224,7 @@ static PetscErrorCode TimeLoop(Channel *c)
     PetscCall(PgBodiesGet(c->tak.bodies, 0, &left));
     if (loaded) c->work += c->force * (left.centre[0] - c->before);
     PetscCall(Observe(c));
+    PgTakBar(&c->tak);
   }
   if (c->tak.output) PetscCall(PgOutputFinish(c->tak.output));
   PetscFunctionReturn(0);
@@ -242,6 +243,7 @@ static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
   PetscCall(PgStagePop());
   err = TimeLoop(c);
   if (!err && output[0]) PetscCall(PetscPrintf(comm, "wrote %s\n", output));
+  if (!err) PetscCall(PgTakSummary(&c->tak, NULL));
   PetscFunctionReturn(err);
 }
 

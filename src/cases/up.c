@@ -39,6 +39,7 @@ static PetscErrorCode RunOptions(PgUp up)
                          0.0, 1e15, &run->every, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-history_every", "time between history rows; default every step", "s",
                          0.0, 1e15, &run->history, NULL));
+  PetscCall(PgMeterSetFromOptions(up->comm, PetscOptionsObject, &run->meter, NULL));
   PetscCall(PgUpRestartOptions(up, PetscOptionsObject));
   PetscOptionsEnd();
   PetscFunctionReturn(0);
@@ -272,7 +273,8 @@ static PetscErrorCode Observe(PgUp up, PgUpRunSettings *run, PetscInt step)
   const PetscInt  every    = PetscMax(1, (PetscInt)(run->every / run->dt + 0.5));
   const PetscInt  history  = PetscMax(1, (PetscInt)(run->history / run->dt + 0.5));
   const PetscInt  progress = PetscMax(1, run->steps / 20);
-  const PetscBool row_due = (PetscBool)(last || step % history == 0), told = (PetscBool)(last || step % progress == 0);
+  const PetscBool row_due  = (PetscBool)(last || step % history == 0);
+  const PetscBool told     = (PetscBool)(last || (run->meter.progress == PG_PROGRESS_LINES && step % progress == 0));
   PetscReal       row[COLUMNS];
 
   PetscFunctionBeginUser;
@@ -293,19 +295,41 @@ static PetscErrorCode Observe(PgUp up, PgUpRunSettings *run, PetscInt step)
 
 static PetscErrorCode TimeLoop(PgUp up, PgUpRunSettings *run)
 {
-  PetscInt begun;
+  PgFemStats stats;
+  PetscInt   begun;
 
   PetscFunctionBeginUser;
   PetscCall(PgFemGetTime(up->fem, &begun, NULL));
+  PetscCall(PgMeterStart(&run->meter, up->comm, begun, run->steps));
   if (!run->restart[0]) PetscCall(Observe(up, run, 0));
   for (PetscInt step = begun + 1; step <= run->steps; step++) {
     PetscCall(PgFemStep(up->fem, StepSize(run, step)));
     PetscCall(Observe(up, run, step));
     PetscCall(PgUpCheckpoint(up, step));
+    PetscCall(PgFemGetStats(up->fem, &stats));
+    PgSolvesAdd(&run->solves, stats.iterations);
+    if (PgMeterBarDue(&run->meter, step))
+      PgMeterBar(&run->meter, step, PetscMin((PetscReal)step * run->dt, run->end), run->end, "");
   }
-  if (run->output) {
-    PetscCall(PgOutputFinish(run->output));
-  }
+  if (run->output) PetscCall(PgOutputFinish(run->output));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Summary(PgUp up, PgUpRunSettings *run)
+{
+  PgFemNodes nodes;
+  PetscInt   count = 0;
+
+  PetscFunctionBeginUser;
+  PgTerminalEnd();
+  PetscCall(PgFemGetNodes(up->fem, &nodes));
+  for (PetscInt i = 0; i < nodes.count; i++) count += nodes.owned[i] ? 1 : 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, up->comm));
+  PetscCall(PgMeterTimes(&run->meter, run->solves.solves, count, "node"));
+  PetscCall(PgMeterSolves(up->comm, &run->solves, "solves for displacement and pressure", "iterations", ""));
+  if (run->output) PetscCall(PgOutputTell(run->output));
+  if (run->checkpoint[0] && run->solves.solves > 0)
+    PetscCall(PetscPrintf(up->comm, "checkpoint in %s, of step %" PetscInt_FMT "\n", run->checkpoint, run->steps));
   PetscFunctionReturn(0);
 }
 
@@ -340,6 +364,7 @@ PetscErrorCode PgUpRun(PgUp up, const char output[])
   PetscCall(PgFemView(up->fem, PETSC_VIEWER_STDOUT_(up->comm)));
   err = TimeLoop(up, run);
   if (!err && output[0]) PetscCall(PetscPrintf(up->comm, "wrote %s\n", output));
+  if (!err) PetscCall(Summary(up, run));
   PetscCall(PgOutputDestroy(&run->output));
   PetscFunctionReturn(err);
 }

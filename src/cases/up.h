@@ -11,6 +11,8 @@ typedef struct {
   PetscReal every, history; /* between snapshots, between rows [s], < 0: default */
   PetscInt  steps;
   PgOutput  output; /* NULL: none */
+  PgMeter   meter;
+  PgSolves  solves;
   /* checkpoints */
   char         checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
   PetscReal    checkpoint_every;                                            /* [s], < 0: default */

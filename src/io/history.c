@@ -164,6 +164,19 @@ PetscErrorCode PgOutputGetRowCount(PgOutput output, PetscInt *count)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PgOutputTell(PgOutput output)
+{
+  PetscInt rows;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgOutputGetRowCount(output, &rows));
+  PetscCall(PetscPrintf(output->comm,
+                        "results in %s, with .xmf for ParaView and .csv for the history beside it: %" PetscInt_FMT
+                        " snapshots, %" PetscInt_FMT " rows of history\n",
+                        output->file, output->snapshots, rows));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgOutputHistory(PgOutput output, const PetscReal row[])
 {
   PetscFunctionBeginUser;

@@ -166,7 +166,7 @@ PetscErrorCode PgMonitorStep(PgSimulation sim)
     if (progress) PetscCall(PgProgressLine(sim));
   }
   if (PgMonitorDue(sim, sim->output_every)) PetscCall(PgMonitorSnapshot(sim, sim->output));
-  if (sim->progress == PG_PROGRESS_BAR) PetscCall(PgProgressBar(sim));
+  PetscCall(PgProgressBar(sim));
   PetscFunctionReturn(0);
 }
 

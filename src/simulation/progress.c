@@ -1,38 +1,20 @@
 /* How far the run is: a line now and then, or a bar on a terminal; and the summary at its end. */
 #include "simulationimpl.h"
 
-static const char *const words[] = {"auto", "bar", "lines", "none"};
-
 PetscErrorCode PgProgressSetFromOptions(PgSimulation sim, PetscOptionItems *PetscOptionsObject)
 {
-  PetscInt  progress = PG_PROGRESS_AUTO, bar;
-  PetscBool every;
-
   PetscFunctionBeginUser;
-  PetscCall(PgOptionChoice(PetscOptionsObject, "-progress",
-                           "how the run tells where it is: a bar with the time left when standard output is a terminal "
-                           "and no mpiexec stands before it, lines otherwise (auto), or as said",
-                           4, words, &progress, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-progress_every",
-                         "time between progress lines; default a twentieth of the run", "s", 0.0, 1e9,
-                         &sim->progress_time, &every));
-  if (progress == PG_PROGRESS_AUTO) {
-    bar = PgTerminalIsWatched() && !every; /* who says how often wants lines */
-    PetscCallMPI(MPI_Bcast(&bar, 1, MPIU_INT, 0, sim->comm));
-    progress = bar ? PG_PROGRESS_BAR : PG_PROGRESS_LINES;
-  }
-  sim->progress = (PgProgress)progress;
-  if (progress != PG_PROGRESS_LINES) sim->progress_time = 0.0;
+  PetscCall(PgMeterSetFromOptions(sim->comm, PetscOptionsObject, &sim->meter, &sim->progress_time));
+  if (sim->meter.progress != PG_PROGRESS_LINES) sim->progress_time = 0.0;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgProgressStart(PgSimulation sim)
 {
   PetscFunctionBeginUser;
-  sim->started    = MPI_Wtime();
-  sim->first_step = sim->last_progress_step = sim->step;
-  /* the bar comes with the first step */
-  sim->last_progress = sim->progress == PG_PROGRESS_BAR ? 0.0 : sim->started;
+  PetscCall(PgMeterStart(&sim->meter, sim->comm, sim->step, sim->steps));
+  sim->last_progress      = sim->meter.started;
+  sim->last_progress_step = sim->step;
   PetscFunctionReturn(0);
 }
 
@@ -61,55 +43,16 @@ PetscErrorCode PgProgressLine(PgSimulation sim)
   PetscFunctionReturn(0);
 }
 
-/* 0:07, 12:45, 3:04:59 */
-static void Clock(PetscLogDouble seconds, char text[], size_t size)
-{
-  const long s = (long)PetscMin(seconds + 0.5, 3.6e9);
-
-  if (s < 3600)
-    (void)snprintf(text, size, "%ld:%02ld", s / 60, s % 60);
-  else
-    (void)snprintf(text, size, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
-}
-
-/* The text after the bar: time, load as of the last row of the history, water, what is left. */
-static void Tell(PgSimulation sim, PetscLogDouble spent, char text[], size_t size)
-{
-  const PetscInt done = sim->step - sim->first_step;
-  char           left[32], load[48] = "";
-
-  Clock(done > 0 ? spent / (PetscLogDouble)done * (PetscLogDouble)(sim->steps - sim->step) : 0.0, left, sizeof left);
-  if (sim->setup.load_plate >= 0 || sim->setup.load_wall >= 0)
-    (void)snprintf(load, sizeof load, "  load %.4g kN/m", 1e-3 * (double)sim->row[COLUMN_LOAD]);
-  (void)snprintf(text, size, "t %.4g of %.4g s%s  left %s", (double)sim->time, (double)sim->setup.end_time, load, left);
-}
-
+/* With the load as of the last row of the history. */
 PetscErrorCode PgProgressBar(PgSimulation sim)
 {
-  enum { WIDTH = 512, WIDEST = 40 };
-  const PetscLogDouble often = 0.1; /* [s]: faster than that nobody reads */
-  const PetscLogDouble now   = MPI_Wtime();
-  const double         part  = (double)sim->step / (double)sim->steps;
-  char                 text[WIDTH], line[2 * WIDTH], bar[WIDEST + 1];
-  PetscMPIInt          rank;
-  int                  columns, filled, width;
+  char load[48] = "";
 
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
-  if (rank != 0 || (now - sim->last_progress < often && sim->step < sim->steps)) PetscFunctionReturn(0);
-  sim->last_progress = now;
-  Tell(sim, now - sim->started, text, sizeof text);
-  width   = PetscMin(PgTerminalWidth(), WIDTH) - 1;          /* the last column would wrap */
-  columns = PetscMin(WIDEST, width - (int)strlen(text) - 9); /* "100 % [", "] " */
-  filled  = (int)(part * columns);
-  for (int i = 0; i < columns; i++) bar[i] = i < filled ? '#' : '.';
-  bar[PetscMax(0, columns)] = '\0';
-  if (columns >= 5)
-    (void)snprintf(line, sizeof line, "%3d %% [%s] %s", (int)(100.0 * part), bar, text);
-  else
-    (void)snprintf(line, sizeof line, "%3d %% %s", (int)(100.0 * part), text);
-  line[PetscMax(0, width)] = '\0';
-  PgTerminalShow(line);
+  if (!PgMeterBarDue(&sim->meter, sim->step)) PetscFunctionReturn(0);
+  if (sim->setup.load_plate >= 0 || sim->setup.load_wall >= 0)
+    (void)snprintf(load, sizeof load, "  load %.4g kN/m", 1e-3 * (double)sim->row[COLUMN_LOAD]);
+  PgMeterBar(&sim->meter, sim->step, sim->time, sim->setup.end_time, load);
   PetscFunctionReturn(0);
 }
 
@@ -117,20 +60,11 @@ PetscErrorCode PgProgressBar(PgSimulation sim)
 
 static PetscErrorCode Times(PgSimulation sim)
 {
-  const PetscLogDouble spent = MPI_Wtime() - sim->started;
-  const PetscInt       steps = (sim->step - sim->first_step) * sim->fluid_every;
-  PetscInt             global;
+  PetscInt global;
 
   PetscFunctionBeginUser;
   PetscCall(PgParticlesGetSizes(sim->particles, NULL, NULL, &global));
-  PetscCall(PetscPrintf(sim->comm, "%.2f s for %" PetscInt_FMT " steps of %" PetscInt_FMT " discs, %.3e disc-steps/s\n",
-                        spent, steps, global, spent > 0 ? (double)global * (double)steps / spent : 0.0));
-  for (int s = PG_STAGE_LISTS; s < PG_STAGE_COUNT; s++) {
-    const PetscLogDouble seconds = PgStageSeconds((PgStage)s);
-    if (seconds > 0.0)
-      PetscCall(PetscPrintf(sim->comm, "  %-10s %8.2f s  %5.1f %%\n", PgStageName((PgStage)s), seconds,
-                            100.0 * seconds / PetscMax(spent, 1e-9)));
-  }
+  PetscCall(PgMeterTimes(&sim->meter, (sim->step - sim->meter.first) * sim->fluid_every, global, "disc"));
   PetscFunctionReturn(0);
 }
 
@@ -155,8 +89,10 @@ static PetscErrorCode Solves(PgSimulation sim)
   PgPressure       pressure;
   PgPressureMethod method;
   PgPressureWork   work;
+  PgSolves         solves;
   PetscInt         preconditioners;
   PetscBool        implicit;
+  char             more[64] = "";
 
   PetscFunctionBeginUser;
   PetscCall(PgPoreGetParts(sim->pore, NULL, &pressure));
@@ -164,15 +100,11 @@ static PetscErrorCode Solves(PgSimulation sim)
   PetscCall(PgPressureGetWork(pressure, &work));
   PetscCall(PgPressureGetCounts(pressure, NULL, NULL, &preconditioners));
   implicit = (PetscBool)(method == PG_PRESSURE_IMPLICIT);
-  PetscCall(PetscPrintf(sim->comm,
-                        "%" PetscInt_FMT " pressure solves, %" PetscInt64_FMT " %s, %.1f on average, at most "
-                        "%" PetscInt_FMT,
-                        work.solves, work.iterations, implicit ? "iterations" : "sweeps",
-                        (double)work.iterations / PetscMax(1.0, (double)work.solves), work.most));
+  solves   = (PgSolves){.solves = work.solves, .most = work.most, .iterations = work.iterations};
   if (implicit)
-    PetscCall(PetscPrintf(sim->comm, "; %" PetscInt_FMT " preconditioner%s", preconditioners,
-                          preconditioners == 1 ? "" : "s"));
-  PetscCall(PetscPrintf(sim->comm, "\n"));
+    PetscCall(PetscSNPrintf(more, sizeof more, "; %" PetscInt_FMT " preconditioner%s", preconditioners,
+                            preconditioners == 1 ? "" : "s"));
+  PetscCall(PgMeterSolves(sim->comm, &solves, "pressure solves", implicit ? "iterations" : "sweeps", more));
   PetscFunctionReturn(0);
 }
 
@@ -182,15 +114,7 @@ static PetscErrorCode Files(PgSimulation sim)
   PgPressureWork work = {0};
 
   PetscFunctionBeginUser;
-  if (sim->output) {
-    PetscInt snapshots, rows;
-    PetscCall(PgOutputGetSnapshotCount(sim->output, &snapshots));
-    PetscCall(PgOutputGetRowCount(sim->output, &rows));
-    PetscCall(PetscPrintf(sim->comm,
-                          "results in %s, with .xmf for ParaView and .csv for the history beside it: %" PetscInt_FMT
-                          " snapshots, %" PetscInt_FMT " rows of history\n",
-                          sim->output_file, snapshots, rows));
-  }
+  if (sim->output) PetscCall(PgOutputTell(sim->output));
   if (sim->checkpoints)
     PetscCall(PetscPrintf(sim->comm, "checkpoint in %s, of step %" PetscInt_FMT "\n", sim->checkpoint_file,
                           sim->checkpoint_step * sim->fluid_every));

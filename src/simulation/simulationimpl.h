@@ -26,8 +26,6 @@ typedef enum {
 } PgColumnIndex;
 PETSC_INTERN const PgColumn PgHistoryColumns[COLUMN_COUNT];
 
-typedef enum { PG_PROGRESS_AUTO, PG_PROGRESS_BAR, PG_PROGRESS_LINES, PG_PROGRESS_NONE } PgProgress;
-
 struct PgSimulation_s {
   MPI_Comm    comm;
   PgParticles particles;
@@ -60,13 +58,13 @@ struct PgSimulation_s {
   PgColumn      *column;
   PetscReal     *row; /* of the present step */
   PetscReal      peak_load, peak_displacement;
-  PgProgress     progress; /* the same on all ranks */
-  PetscLogDouble started, last_progress;
-  PetscInt       first_step, last_progress_step; /* of this program; of the last line */
-  PetscInt       checkpoints;                    /* written by this program */
-  PetscReal     *effective, *volumetric;         /* strain by id, scratch */
-  PetscReal     *porosity;                       /* by id, scratch; of runs without water */
-  PgField        porosity_start;                 /* -1: water has its own, or nobody asks for it */
+  PgMeter        meter;
+  PetscLogDouble last_progress;          /* the clock at the last line [s] */
+  PetscInt       last_progress_step;     /* the step of that line */
+  PetscInt       checkpoints;            /* written by this program */
+  PetscReal     *effective, *volumetric; /* strain by id, scratch */
+  PetscReal     *porosity;               /* by id, scratch; of runs without water */
+  PgField        porosity_start;         /* -1: water has its own, or nobody asks for it */
 
   /* restart and end */
   char           case_name[64], fluid_name[16]; /* as checkpoints know them */

@@ -40,6 +40,44 @@ grep -q "left [0-9:]*"$'\x1b\\[K'"$cr" bad.out || fail 'no bar before the failur
 tr "$cr" '\n' <bad.out | sed 's/^\x1b\[K//' | grep -q '^porograin: error: ' || fail 'the message shares a line with the bar'
 expect_error 2 "option -progress: .*'bars'.*bar" "$POROGRAIN" "${small[@]}" -progress bars
 
+# Cases with a run of their own tell it in the same way.
+up=(-case up_terzaghi -up_cells 2,20 -end_time 18)
+liquid=(-case wcsph_couette -wcsph_cells 10 -wcsph_columns 12 -end_time 2)
+tak=(-options_file "$SOURCE_DIR/options/tak_block.opts" -dt 4e-3 -tak_block_every 2 -tak_block_cells 20,3 -end_time 0.08)
+for name in up liquid tak; do
+  declare -n options=$name
+  "$POROGRAIN" "${options[@]}" -output $name.h5 >$name.out
+  [ "$(grep -c '^t [0-9]' $name.out)" -ge 20 ] || fail "$name: no lines"
+  ! grep -q "$cr" $name.out || fail "$name: a bar in a file"
+  rows=$(csv_column $name.csv time | wc -l)
+  snapshots=$(h5ls $name.h5/snapshots | wc -l)
+  expect_match "^results in $name.h5, .*: $snapshots snapshots, $rows rows of history\$" $name.out
+  [ -s $name.xmf ] || fail "$name.xmf is told of, and not there"
+  "$POROGRAIN" "${options[@]}" -progress bar >$name.bar.out
+  grep -q "${cr}100 % \[#*\] t .* s  left 0:00" $name.bar.out || fail "$name: no full bar"
+  tr "$cr" '\n' <$name.bar.out | sed 's/^\x1b\[K//' >$name.bar.lines
+  expect_match '^[0-9.]+ s for ' $name.bar.lines # the bar is taken away
+  "$POROGRAIN" "${options[@]}" -progress none >$name.none.lines
+  for way in bar none; do # what the run has come to is told all the same
+    [ "$(grep -c '^t [0-9]' $name.$way.lines)" -eq 1 ] || fail "$name: not one line with -progress $way"
+  done
+  ! grep -q "$cr" $name.none.lines || fail "$name: a bar although -progress none"
+done
+# Each step of the continuum has its row; the first is the start, which is not solved for.
+read -r total most < <(csv_column up.csv pressure_iterations | awk '{ s += $1; if ($1 > m) m = $1 } END { print s, m }')
+expect_match "^200 solves for displacement and pressure, $total iterations, .* at most $most\$" up.out
+expect_match '^[0-9.]+ s for 200 steps of 63 nodes, [^ ]+ node-steps/s$' up.out
+expect_match '^  pressure +[0-9.]+ s +[0-9.]+ %$' up.out
+expect_match '^[0-9.]+ s for [0-9]+ steps of 216 particles, [^ ]+ particle-steps/s$' liquid.out
+# a step of the zones every other one of the 20, and two zones
+expect_match '^20 solves of the zones, [0-9]+ iterations, ' tak.out
+# A run that goes on counts what it has done itself.
+"$POROGRAIN" "${up[@]}" -checkpoint up.pgc -checkpoint_every 9 >first.out
+expect_match '^checkpoint in up.pgc, of step 200$' first.out
+"$POROGRAIN" "${up[@]}" -restart up.pgc.1 >second.out
+expect_match '^[0-9.]+ s for 100 steps of 63 nodes' second.out
+expect_match '^100 solves for displacement and pressure, ' second.out
+
 # On a terminal.
 command -v script >/dev/null || skip 'there is no program script (Debian: bsdutils) to make a terminal'
 # terminal COLUMNS command...: its output, as a terminal gets it
@@ -55,6 +93,14 @@ grep -q "${cr}100 % \[#*\] t " terminal.out || fail 'no bar on a terminal'
 terminal 40 "$POROGRAIN" "${small[@]}" >narrow.out
 widest=$(tr "$cr" '\n' <narrow.out | grep -aE '^ *[0-9]+ %' | sed 's/\x1b\[K//' | awk '{ if (length > m) m = length } END { print m }')
 expect_close "$widest" 39 0 # more would wrap, and is cut off
+for name in up liquid; do
+  declare -n options=$name
+  terminal 100 "$POROGRAIN" "${options[@]}" >$name.terminal.out
+  grep -q "${cr}100 % \[#*\] t .* s  left 0:00" $name.terminal.out || fail "$name: no bar on a terminal"
+  tr "$cr" '\n' <$name.terminal.out | sed 's/^\x1b\[K//' >$name.terminal.lines
+  [ "$(grep -c '^t [0-9]' $name.terminal.lines)" -eq 1 ] || fail "$name: lines on a terminal"
+  expect_match '^[0-9.]+ s for ' $name.terminal.lines
+done
 TERM=dumb terminal 100 "$POROGRAIN" "${small[@]}" >dumb.out
 expect_match '^step ' dumb.out
 # mpiexec gives its processes terminals, but what they print may go anywhere.
