@@ -1,4 +1,4 @@
-# timeout: 60
+# timeout: 180
 # -help is short and says how to see more; every room has its section; -version names what the program stands on;
 # docs/options.md is what the programs say.
 . "$SOURCE_DIR/tests/support/regress.sh"
