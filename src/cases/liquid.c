@@ -25,30 +25,11 @@ static PetscErrorCode ReadOptions(PgLiquid l)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RunOptions(PgLiquid l)
-{
-  PetscFunctionBeginUser;
-  l->every = l->history = -1.0;
-  PetscOptionsBegin(l->comm, "", "run: what is computed, time step and end", "");
-  PetscCall(PgOptionReal(PetscOptionsObject, "-dt", "time step; default: the largest that is stable", "s", PG_POSITIVE,
-                         1e12, &l->dt, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-end_time", "end of the run; default: of the case", "s", PG_POSITIVE,
-                         1e15, &l->end, NULL));
-  PetscOptionsEnd();
-  PetscOptionsBegin(l->comm, "", "output: results, checkpoints and restart", "");
-  PetscCall(PgOptionReal(PetscOptionsObject, "-output_every", "time between snapshots; default a tenth of the run", "s",
-                         0.0, 1e15, &l->every, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-history_every",
-                         "time between history rows; default a hundredth of the run", "s", 0.0, 1e15, &l->history,
-                         NULL));
-  PetscCall(PgMeterSetFromOptions(l->comm, PetscOptionsObject, &l->meter, NULL));
-  PetscOptionsEnd();
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode PgLiquidCreateProblem(MPI_Comm comm, const PgLiquidProblem *problem, PgLiquid *out)
 {
-  PgLiquid l;
+  const PgCaseRunTexts texts = {.dt      = "time step; default: the largest that is stable",
+                                .history = "time between history rows; default a hundredth of the run"};
+  PgLiquid             l;
 
   PetscFunctionBeginUser;
   PetscCall(PgCaseDefaults(problem->defaults));
@@ -63,7 +44,7 @@ PetscErrorCode PgLiquidCreateProblem(MPI_Comm comm, const PgLiquidProblem *probl
   PetscCall(PgWcsphCreate(comm, &l->wcsph));
   PetscCall(ReadOptions(l));
   PetscCall(PgWcsphSetFromOptions(l->wcsph));
-  PetscCall(RunOptions(l));
+  PetscCall(PgCaseRunSetFromOptions(comm, &texts, &l->run));
   PetscFunctionReturn(0);
 }
 
@@ -82,7 +63,7 @@ PetscErrorCode PgLiquidDestroy(PgLiquid *l)
 {
   PetscFunctionBeginUser;
   if (!*l) PetscFunctionReturn(0);
-  PetscCall(PgOutputDestroy(&(*l)->output));
+  PetscCall(PgOutputDestroy(&(*l)->run.output));
   PetscCall(PgWcsphDestroy(&(*l)->wcsph));
   PetscCall(PetscFree(*l));
   PetscFunctionReturn(0);
@@ -98,8 +79,8 @@ PetscErrorCode PgLiquidGetWcsph(PgLiquid l, PgWcsph *wcsph)
 PetscErrorCode PgLiquidGetTimes(PgLiquid l, PetscReal *dt, PetscReal *end)
 {
   PetscFunctionBeginUser;
-  *dt  = l->dt;
-  *end = l->end;
+  *dt  = l->run.dt;
+  *end = l->run.end;
   PetscFunctionReturn(0);
 }
 
@@ -128,6 +109,26 @@ PetscErrorCode PgLiquidAddBlock(PgLiquid l, const PgLiquidBlock *block)
     PetscCall(PgWcsphAddParticles(l->wcsph, block->columns, row));
   }
   PetscCall(PetscFree(row));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgLiquidAddChannel(PgLiquid l, PetscReal speed)
+{
+  PgLiquidBlock block  = {.kind = PG_WCSPH_FLUID, .columns = l->columns, .rows = l->cells};
+  PetscInt      layers = 0;
+
+  PetscFunctionBeginUser;
+  PetscCall(PgWcsphSetPeriodicX(l->wcsph, 0.0, l->dx * (PetscReal)l->columns));
+  PetscCall(PgLiquidWallLayers(l, &layers));
+  PetscCall(PgLiquidAddBlock(l, &block));
+  block.kind   = PG_WCSPH_WALL;
+  block.rows   = layers;
+  block.low[1] = -l->dx * (PetscReal)layers;
+  PetscCall(PgLiquidAddBlock(l, &block));
+  block.body        = 1;
+  block.low[1]      = l->height;
+  block.velocity[0] = speed;
+  PetscCall(PgLiquidAddBlock(l, &block));
   PetscFunctionReturn(0);
 }
 
@@ -166,18 +167,12 @@ PetscErrorCode PgLiquidSetUp(PgLiquid l)
   PetscCall(l->problem->fill(l));
   PetscCall(PgWcsphSetUp(l->wcsph));
   PetscCall(PgWcsphGetTimeStep(l->wcsph, &largest));
-  if (l->end <= 0.0) l->end = l->problem->end(l);
-  PgInputCheck(l->dt <= largest * (1.0 + 1e-9), l->comm,
-               "option -dt: %g s is more than the largest stable time step of this liquid, %g s", (double)l->dt,
+  if (l->run.end <= 0.0) l->run.end = l->problem->end(l);
+  PgInputCheck(l->run.dt <= largest * (1.0 + 1e-9), l->comm,
+               "option -dt: %g s is more than the largest stable time step of this liquid, %g s", (double)l->run.dt,
                (double)largest);
-  PgInputCheck(l->end / (l->dt > 0.0 ? l->dt : largest) < 1e8, l->comm,
-               "%g steps to t = %g s with a time step of %g s are too many",
-               (double)(l->end / (l->dt > 0.0 ? l->dt : largest)), (double)l->end,
-               (double)(l->dt > 0.0 ? l->dt : largest));
-  l->steps = PetscMax(1, (PetscInt)PetscCeilReal(l->end / (l->dt > 0.0 ? l->dt : largest) - 1e-9));
-  if (l->dt <= 0.0) l->dt = l->end / (PetscReal)l->steps;
-  if (l->every < 0.0) l->every = l->dt * (PetscReal)PetscMax(1, l->steps / 10);
-  if (l->history < 0.0) l->history = l->dt * (PetscReal)PetscMax(1, l->steps / 100);
+  if (l->run.dt <= 0.0) l->run.dt = l->run.end / PetscMax(1.0, PetscCeilReal(l->run.end / largest - 1e-9));
+  PetscCall(PgCaseRunChooseSteps(&l->run, 100));
   PetscFunctionReturn(0);
 }
 
@@ -270,43 +265,34 @@ static PetscErrorCode FillRow(PgLiquid l, PetscReal row[COLUMNS])
 
 static PetscErrorCode Observe(PgLiquid l, PetscInt step)
 {
-  const PetscBool last     = (PetscBool)(step == l->steps);
-  const PetscInt  every    = PetscMax(1, (PetscInt)(l->every / l->dt + 0.5));
-  const PetscInt  history  = PetscMax(1, (PetscInt)(l->history / l->dt + 0.5));
-  const PetscInt  progress = PetscMax(1, l->steps / 20);
-  const PetscBool row_due  = (PetscBool)(last || step % history == 0);
-  const PetscBool told     = (PetscBool)(last || (l->meter.progress == PG_PROGRESS_LINES && step % progress == 0));
-  PetscReal       row[COLUMNS];
+  const PgCaseRunDueNow due = PgCaseRunDue(&l->run, step);
+  PetscReal             row[COLUMNS];
 
   PetscFunctionBeginUser;
-  if (!row_due && !told && step % every) PetscFunctionReturn(0);
+  if (!due.row && !due.line && !due.snapshot) PetscFunctionReturn(0);
   PetscCall(FillRow(l, row));
-  if (told)
+  if (due.line)
     PetscCall(PetscPrintf(l->comm,
                           "t %.4e s  speed max %.4e m/s  density %.6g to %.6g kg/m3  energy %.6e J/m  error L2 %.3e  "
                           "max %.3e\n",
                           (double)row[TIME], (double)row[SPEED], (double)row[DENSITY_MIN], (double)row[DENSITY_MAX],
                           (double)(row[KINETIC] + row[INTERNAL] + row[POTENTIAL]), (double)row[ERROR_L2],
                           (double)row[ERROR_MAX]));
-  if (!l->output) PetscFunctionReturn(0);
-  PetscCall(PgStagePush(PG_STAGE_OUTPUT));
-  if (row_due) PetscCall(PgOutputHistory(l->output, row));
-  if (last || step % every == 0) PetscCall(PgOutputSnapshot(l->output, row[TIME], 0, NULL));
-  PetscCall(PgStagePop());
+  PetscCall(PgCaseRunWrite(&l->run, due, row[TIME], row));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode TimeLoop(PgLiquid l)
 {
   PetscFunctionBeginUser;
-  PetscCall(PgMeterStart(&l->meter, l->comm, 0, l->steps));
+  PetscCall(PgMeterStart(&l->run.meter, l->comm, 0, l->run.steps));
   PetscCall(Observe(l, 0));
-  for (PetscInt step = 1; step <= l->steps; step++) {
-    PetscCall(PgWcsphStep(l->wcsph, l->dt));
+  for (PetscInt step = 1; step <= l->run.steps; step++) {
+    PetscCall(PgWcsphStep(l->wcsph, l->run.dt));
     PetscCall(Observe(l, step));
-    if (PgMeterBarDue(&l->meter, step)) PgMeterBar(&l->meter, step, (PetscReal)step * l->dt, l->end, "");
+    PgCaseRunBar(&l->run, step);
   }
-  if (l->output) PetscCall(PgOutputFinish(l->output));
+  if (l->run.output) PetscCall(PgOutputFinish(l->run.output));
   PetscFunctionReturn(0);
 }
 
@@ -316,11 +302,9 @@ static PetscErrorCode Summary(PgLiquid l)
   PetscInt    count;
 
   PetscFunctionBeginUser;
-  PgTerminalEnd();
   PetscCall(PgWcsphGetParticles(l->wcsph, &particles));
   PetscCall(PgParticlesGetSizes(particles, NULL, NULL, &count));
-  PetscCall(PgMeterTimes(&l->meter, l->steps, count, "particle"));
-  if (l->output) PetscCall(PgOutputTell(l->output));
+  PetscCall(PgCaseRunSummary(&l->run, l->run.steps, count, "particle", NULL, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -334,15 +318,15 @@ PetscErrorCode PgLiquidRun(PgLiquid l, const char output[])
   PetscCall(PgLiquidSetUp(l));
   PetscCall(PgWcsphCheckOptions(l->wcsph, NULL, NULL));
   PetscCall(PgWcsphGetParticles(l->wcsph, &particles));
-  if (output[0]) PetscCall(PgOutputCreate(particles, output, COLUMNS, columns, &l->output));
+  if (output[0]) PetscCall(PgOutputCreate(particles, output, COLUMNS, columns, &l->run.output));
   PetscCall(PgStagePop());
-  PetscCall(PetscPrintf(l->comm, "time step %.4e s, %" PetscInt_FMT " steps to t = %.4e s\n", (double)l->dt, l->steps,
-                        (double)l->end));
+  PetscCall(PetscPrintf(l->comm, "time step %.4e s, %" PetscInt_FMT " steps to t = %.4e s\n", (double)l->run.dt,
+                        l->run.steps, (double)l->run.end));
   PetscCall(PgWcsphView(l->wcsph, PETSC_VIEWER_STDOUT_(l->comm)));
   err = TimeLoop(l);
   if (!err && output[0]) PetscCall(PetscPrintf(l->comm, "wrote %s\n", output));
   if (!err) PetscCall(Summary(l));
-  PetscCall(PgOutputDestroy(&l->output));
+  PetscCall(PgOutputDestroy(&l->run.output));
   PetscFunctionReturn(err);
 }
 

@@ -1,7 +1,7 @@
 /* What the problems of the weakly compressible liquid share: one object, filled by its problem, stepped by liquid.c. */
 #pragma once
 
-#include "casesimpl.h"
+#include "run.h"
 
 typedef struct PgLiquidProblem_s PgLiquidProblem;
 
@@ -15,12 +15,8 @@ struct PgLiquid_s {
   PetscReal              height, dx;           /* [m] */
   PetscReal              speed;                /* of the lid, or greatest of the exact flow [m/s] */
   PetscReal              rho_0, mu, c_0, g[2]; /* as the liquid has them */
-  PetscReal              end, dt;              /* [s], 0: of the problem */
-  PetscReal              every, history;       /* between snapshots, between rows [s], < 0: default */
-  PetscInt               steps;
-  PetscBool              tank, from_rest; /* wcsph_hydrostatic: side walls; starts without pressure */
-  PgOutput               output;          /* NULL: none */
-  PgMeter                meter;
+  PetscBool              tank, from_rest;      /* wcsph_hydrostatic: side walls; starts without pressure */
+  PgCaseRun              run;
 };
 
 struct PgLiquidProblem_s {
@@ -46,6 +42,8 @@ typedef struct {
   PetscReal (*pressure)(PgLiquid l, const PetscReal x[2]);
 } PgLiquidBlock;
 PETSC_INTERN PetscErrorCode PgLiquidAddBlock(PgLiquid l, const PgLiquidBlock *block);
+/* Liquid of l->cells x l->columns particles, periodic along x, between two walls; the upper one moves along x [m/s]. */
+PETSC_INTERN PetscErrorCode PgLiquidAddChannel(PgLiquid l, PetscReal speed);
 /* Layers of a wall that fill the reach of the kernel. */
 PETSC_INTERN PetscErrorCode PgLiquidWallLayers(PgLiquid l, PetscInt *layers);
 /* sum of sin(k pi y/H) exp(-k^2 pi^2 nu t/H^2)/k^power over k = 1, 1 + stride, ..., with alternating signs or not. */

@@ -1,19 +1,16 @@
 /* What the two examples of Tak, Park & Park (2013) share: a liquid by particles on a lattice, bodies, their steps, results. */
 #pragma once
 
-#include "casesimpl.h"
+#include "run.h"
 #include <porograin/bodies.h>
 
 typedef struct {
   MPI_Comm  comm;
   PgWcsph   wcsph;
   PgBodies  bodies;
-  PetscReal dx;             /* spacing of the lattice [m] */
-  PetscReal dt, end;        /* [s]; dt 0: the largest that the liquid bears */
-  PetscReal every, history; /* between snapshots, between rows [s], < 0: default */
-  PetscInt  steps, step;
-  PgOutput  output; /* NULL: none */
-  PgMeter   meter;
+  PetscReal dx; /* spacing of the lattice [m] */
+  PetscInt  step;
+  PgCaseRun run;
 } PgTak;
 
 /* Liquid and bodies with their options, -dt and its kin. */
@@ -31,8 +28,3 @@ PETSC_INTERN PetscErrorCode PgTakStart(PgTak *tak, const char output[], PetscInt
 PETSC_INTERN PetscErrorCode PgTakSummary(PgTak *tak, const PgSolves *solves);
 /* One step of liquid and bodies. */
 PETSC_INTERN PetscErrorCode PgTakStep(PgTak *tak);
-/* What is due now: a row of the history, a line on the terminal, a snapshot. */
-PETSC_INTERN PetscErrorCode PgTakDue(const PgTak *tak, PetscBool *row, PetscBool *line, PetscBool *snapshot);
-PETSC_INTERN void           PgTakBar(PgTak *tak); /* after each step */
-PETSC_INTERN PetscErrorCode PgTakWrite(PgTak *tak, PetscBool row, PetscBool snapshot, PetscReal time,
-                                       const PetscReal values[]);

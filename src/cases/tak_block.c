@@ -294,7 +294,7 @@ static PetscErrorCode TakeForces(Block *b)
 
 static PetscErrorCode StepZones(Block *b)
 {
-  const PetscReal dt = b->tak.dt * (PetscReal)b->every;
+  const PetscReal dt = b->tak.run.dt * (PetscReal)b->every;
 
   PetscFunctionBeginUser;
   for (PetscInt k = 0; k < ZONES; k++) {
@@ -446,19 +446,18 @@ static PetscErrorCode FillRow(Block *b, PetscReal row[COLUMNS])
 
 static PetscErrorCode Observe(Block *b)
 {
-  PetscBool row, line, snapshot;
-  PetscReal value[COLUMNS];
+  const PgCaseRunDueNow due = PgCaseRunDue(&b->tak.run, b->tak.step);
+  PetscReal             value[COLUMNS];
 
   PetscFunctionBeginUser;
-  PetscCall(PgTakDue(&b->tak, &row, &line, &snapshot));
-  if (!row && !line && !snapshot) PetscFunctionReturn(0);
+  if (!due.row && !due.line && !due.snapshot) PetscFunctionReturn(0);
   PetscCall(FillRow(b, value));
-  if (line)
+  if (due.line)
     PetscCall(PetscPrintf(b->tak.comm,
                           "t %.4e s  liquid %.4f Pa  on zones %.4f %.4f Pa  pores %.4f %.4f Pa  way %.4e m\n",
                           (double)value[TIME], (double)value[P_LIQUID], (double)value[STRESS_1],
                           (double)value[STRESS_2], (double)value[PORE_1], (double)value[PORE_2], (double)value[WAY_1]));
-  PetscCall(PgTakWrite(&b->tak, row, snapshot, value[TIME], value));
+  PetscCall(PgCaseRunWrite(&b->tak.run, due, value[TIME], value));
   PetscFunctionReturn(0);
 }
 
@@ -467,15 +466,15 @@ static PetscErrorCode TimeLoop(Block *b)
 {
   PetscFunctionBeginUser;
   PetscCall(Observe(b));
-  while (b->tak.step < b->tak.steps) {
+  while (b->tak.step < b->tak.run.steps) {
     if (b->tak.step % b->every == 0) PetscCall(StepZones(b));
     b->sub++;
     PetscCall(PgTakStep(&b->tak));
     PetscCall(TakeForces(b));
     PetscCall(Observe(b));
-    PgTakBar(&b->tak);
+    PgCaseRunBar(&b->tak.run, b->tak.step);
   }
-  if (b->tak.output) PetscCall(PgOutputFinish(b->tak.output));
+  if (b->tak.run.output) PetscCall(PgOutputFinish(b->tak.run.output));
   PetscFunctionReturn(0);
 }
 
@@ -488,7 +487,7 @@ static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
   PetscCall(PgStagePush(PG_STAGE_SETUP));
   PetscCall(Fill(b));
   PetscCall(PgTakChooseSteps(&b->tak));
-  for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemSetUpSolver(b->zone[k].fem, b->tak.dt * (PetscReal)b->every));
+  for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemSetUpSolver(b->zone[k].fem, b->tak.run.dt * (PetscReal)b->every));
   PetscCall(PgTakStart(&b->tak, output, COLUMNS, columns, PgFemProbeOptions, b->zone[0].fem));
   PetscCall(PgStagePop());
   for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemView(b->zone[k].fem, PETSC_VIEWER_STDOUT_(comm)));

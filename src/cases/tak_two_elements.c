@@ -180,18 +180,17 @@ static PetscErrorCode FillRow(Channel *c, PetscReal row[COLUMNS])
 
 static PetscErrorCode Observe(Channel *c)
 {
-  PetscBool row, line, snapshot;
-  PetscReal value[COLUMNS];
+  const PgCaseRunDueNow due = PgCaseRunDue(&c->tak.run, c->tak.step);
+  PetscReal             value[COLUMNS];
 
   PetscFunctionBeginUser;
-  PetscCall(PgTakDue(&c->tak, &row, &line, &snapshot));
-  if (!row && !line && !snapshot) PetscFunctionReturn(0);
+  if (!due.row && !due.line && !due.snapshot) PetscFunctionReturn(0);
   PetscCall(FillRow(c, value));
-  if (line)
+  if (due.line)
     PetscCall(PetscPrintf(c->tak.comm, "t %.4e s  p A %.4e  p B %.4e Pa  way %.6e  %.6e m  outside %d\n",
                           (double)value[TIME], (double)value[P_A], (double)value[P_B], (double)value[X_LEFT],
                           (double)value[X_RIGHT], (int)value[OUT]));
-  PetscCall(PgTakWrite(&c->tak, row, snapshot, value[TIME], value));
+  PetscCall(PgCaseRunWrite(&c->tak.run, due, value[TIME], value));
   PetscFunctionReturn(0);
 }
 
@@ -203,7 +202,7 @@ static PetscErrorCode Load(Channel *c, PetscBool *loaded)
 
   PetscFunctionBeginUser;
   PetscCall(PgWcsphGetTime(c->tak.wcsph, NULL, &time));
-  if (*loaded || time < c->start - 1e-9 * c->tak.dt) PetscFunctionReturn(0);
+  if (*loaded || time < c->start - 1e-9 * c->tak.run.dt) PetscFunctionReturn(0);
   PetscCall(PgBodiesAddTraction(c->tak.bodies, 0, 0, 0.0, traction));
   *loaded = PETSC_TRUE;
   PetscFunctionReturn(0);
@@ -216,7 +215,7 @@ static PetscErrorCode TimeLoop(Channel *c)
 
   PetscFunctionBeginUser;
   PetscCall(Observe(c));
-  while (c->tak.step < c->tak.steps) {
+  while (c->tak.step < c->tak.run.steps) {
     PetscCall(Load(c, &loaded));
     PetscCall(PgBodiesGet(c->tak.bodies, 0, &left));
     c->before = left.centre[0];
@@ -224,9 +223,9 @@ static PetscErrorCode TimeLoop(Channel *c)
     PetscCall(PgBodiesGet(c->tak.bodies, 0, &left));
     if (loaded) c->work += c->force * (left.centre[0] - c->before);
     PetscCall(Observe(c));
-    PgTakBar(&c->tak);
+    PgCaseRunBar(&c->tak.run, c->tak.step);
   }
-  if (c->tak.output) PetscCall(PgOutputFinish(c->tak.output));
+  if (c->tak.run.output) PetscCall(PgOutputFinish(c->tak.run.output));
   PetscFunctionReturn(0);
 }
 

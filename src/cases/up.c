@@ -22,32 +22,12 @@ static PetscErrorCode ReadOptions(PgUp up)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RunOptions(PgUp up)
-{
-  PgUpRunSettings *run = &up->run;
-
-  PetscFunctionBeginUser;
-  run->every = run->history = -1.0;
-  PetscOptionsBegin(up->comm, "", "run: what is computed, time step and end", "");
-  PetscCall(PgOptionReal(PetscOptionsObject, "-dt", "time step; default: of the case", "s", PG_POSITIVE, 1e12, &run->dt,
-                         NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-end_time", "end of the run; default: of the case", "s", PG_POSITIVE,
-                         1e15, &run->end, NULL));
-  PetscOptionsEnd();
-  PetscOptionsBegin(up->comm, "", "output: results, checkpoints and restart", "");
-  PetscCall(PgOptionReal(PetscOptionsObject, "-output_every", "time between snapshots; default a tenth of the run", "s",
-                         0.0, 1e15, &run->every, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-history_every", "time between history rows; default every step", "s",
-                         0.0, 1e15, &run->history, NULL));
-  PetscCall(PgMeterSetFromOptions(up->comm, PetscOptionsObject, &run->meter, NULL));
-  PetscCall(PgUpRestartOptions(up, PetscOptionsObject));
-  PetscOptionsEnd();
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode PgUpCreateProblem(MPI_Comm comm, const PgUpProblem *problem, PgUp *out)
 {
-  PgUp up;
+  PgCaseRunTexts texts = {.dt      = "time step; default: of the case",
+                          .history = "time between history rows; default every step",
+                          .more    = PgUpRestartOptions};
+  PgUp           up;
 
   PetscFunctionBeginUser;
   if (problem->defaults[0]) PetscCall(PgCaseDefaults(problem->defaults));
@@ -61,7 +41,8 @@ PetscErrorCode PgUpCreateProblem(MPI_Comm comm, const PgUpProblem *problem, PgUp
   *out        = up;
   PetscCall(PgFemCreate(comm, &up->fem));
   PetscCall(ReadOptions(up));
-  PetscCall(RunOptions(up));
+  texts.context = up;
+  PetscCall(PgCaseRunSetFromOptions(comm, &texts, &up->run));
   PetscCall(problem->conditions(up));
   PetscFunctionReturn(0);
 }
@@ -214,24 +195,11 @@ static const PgColumn columns[COLUMNS] = {
 };
 
 /* The last step is cut to the end of the run. */
-static PetscReal StepSize(const PgUpRunSettings *run, PetscInt step)
+static PetscReal StepSize(const PgCaseRun *run, PetscInt step)
 {
   const PetscReal left = run->end - (PetscReal)(step - 1) * run->dt;
 
-  return step == run->steps && left < (1.0 - PG_UP_UNEVEN) * run->dt ? left : run->dt;
-}
-
-static PetscErrorCode ChooseSteps(PgUp up, PgUpRunSettings *run)
-{
-  PetscFunctionBeginUser;
-  if (run->dt <= 0.0) run->dt = up->dt;
-  if (run->end <= 0.0) run->end = up->end;
-  PgInputCheck(run->end / run->dt < 1e8, up->comm, "%g steps to t = %g s with -dt %g s are too many",
-               (double)(run->end / run->dt), (double)run->end, (double)run->dt);
-  run->steps = PetscMax(1, (PetscInt)PetscCeilReal(run->end / run->dt - PG_UP_UNEVEN));
-  if (run->every < 0.0) run->every = run->dt * (PetscReal)PetscMax(1, run->steps / 10);
-  if (run->history < 0.0) run->history = run->dt;
-  PetscFunctionReturn(0);
+  return step == run->steps && left < (1.0 - PG_CASE_UNEVEN) * run->dt ? left : run->dt;
 }
 
 static void Volume(void *context, const PgFemPoint *point, PetscReal value[])
@@ -267,105 +235,98 @@ static PetscErrorCode FillRow(PgUp up, PetscReal row[COLUMNS])
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Observe(PgUp up, PgUpRunSettings *run, PetscInt step)
+static PetscErrorCode Observe(PgUp up, PetscInt step)
 {
-  const PetscBool last     = (PetscBool)(step == run->steps);
-  const PetscInt  every    = PetscMax(1, (PetscInt)(run->every / run->dt + 0.5));
-  const PetscInt  history  = PetscMax(1, (PetscInt)(run->history / run->dt + 0.5));
-  const PetscInt  progress = PetscMax(1, run->steps / 20);
-  const PetscBool row_due  = (PetscBool)(last || step % history == 0);
-  const PetscBool told     = (PetscBool)(last || (run->meter.progress == PG_PROGRESS_LINES && step % progress == 0));
-  PetscReal       row[COLUMNS];
+  const PgCaseRunDueNow due = PgCaseRunDue(&up->run, step);
+  PetscReal             row[COLUMNS];
 
   PetscFunctionBeginUser;
-  if (!row_due && !told && step % every) PetscFunctionReturn(0);
+  if (!due.row && !due.line && !due.snapshot) PetscFunctionReturn(0);
   PetscCall(FillRow(up, row));
-  if (told)
+  if (due.line)
     PetscCall(PetscPrintf(
         up->comm, "t %.4e s  settlement %.6e m  p probe %.4e  min %.4e  mean %.4e  max %.4e Pa  iterations %d\n",
         (double)row[TIME], (double)row[DISPLACEMENT], (double)row[PROBE], (double)row[MIN], (double)row[MEAN],
         (double)row[MAX], (int)row[ITERATIONS]));
-  if (!run->output) PetscFunctionReturn(0);
   PetscCall(PgStagePush(PG_STAGE_OUTPUT));
-  if (row_due) PetscCall(PgOutputHistory(run->output, row));
-  if (last || step % every == 0) PetscCall(PgFemSnapshot(up->fem, run->output));
+  if (due.row) PetscCall(PgOutputHistory(up->run.output, row));
+  if (due.snapshot) PetscCall(PgFemSnapshot(up->fem, up->run.output));
   PetscCall(PgStagePop());
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TimeLoop(PgUp up, PgUpRunSettings *run)
+static PetscErrorCode TimeLoop(PgUp up)
 {
   PgFemStats stats;
   PetscInt   begun;
 
   PetscFunctionBeginUser;
   PetscCall(PgFemGetTime(up->fem, &begun, NULL));
-  PetscCall(PgMeterStart(&run->meter, up->comm, begun, run->steps));
-  if (!run->restart[0]) PetscCall(Observe(up, run, 0));
-  for (PetscInt step = begun + 1; step <= run->steps; step++) {
-    PetscCall(PgFemStep(up->fem, StepSize(run, step)));
-    PetscCall(Observe(up, run, step));
+  PetscCall(PgMeterStart(&up->run.meter, up->comm, begun, up->run.steps));
+  if (!up->again.restart[0]) PetscCall(Observe(up, 0));
+  for (PetscInt step = begun + 1; step <= up->run.steps; step++) {
+    PetscCall(PgFemStep(up->fem, StepSize(&up->run, step)));
+    PetscCall(Observe(up, step));
     PetscCall(PgUpCheckpoint(up, step));
     PetscCall(PgFemGetStats(up->fem, &stats));
-    PgSolvesAdd(&run->solves, stats.iterations);
-    if (PgMeterBarDue(&run->meter, step))
-      PgMeterBar(&run->meter, step, PetscMin((PetscReal)step * run->dt, run->end), run->end, "");
+    PgSolvesAdd(&up->solves, stats.iterations);
+    PgCaseRunBar(&up->run, step);
   }
-  if (run->output) PetscCall(PgOutputFinish(run->output));
+  if (up->run.output) PetscCall(PgOutputFinish(up->run.output));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode Summary(PgUp up, PgUpRunSettings *run)
+static PetscErrorCode Summary(PgUp up)
 {
   PgFemNodes nodes;
   PetscInt   count = 0;
 
   PetscFunctionBeginUser;
-  PgTerminalEnd();
   PetscCall(PgFemGetNodes(up->fem, &nodes));
   for (PetscInt i = 0; i < nodes.count; i++) count += nodes.owned[i] ? 1 : 0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, up->comm));
-  PetscCall(PgMeterTimes(&run->meter, run->solves.solves, count, "node"));
-  PetscCall(PgMeterSolves(up->comm, &run->solves, "solves for displacement and pressure", "iterations", ""));
-  if (run->output) PetscCall(PgOutputTell(run->output));
-  if (run->checkpoint[0] && run->solves.solves > 0)
-    PetscCall(PetscPrintf(up->comm, "checkpoint in %s, of step %" PetscInt_FMT "\n", run->checkpoint, run->steps));
+  PetscCall(PgCaseRunSummary(&up->run, up->solves.solves, count, "node", &up->solves,
+                             "solves for displacement and pressure"));
+  if (up->again.checkpoint[0] && up->solves.solves > 0)
+    PetscCall(
+        PetscPrintf(up->comm, "checkpoint in %s, of step %" PetscInt_FMT "\n", up->again.checkpoint, up->run.steps));
   PetscFunctionReturn(0);
 }
 
 /* Everything that can be refused, before anything is written. */
-static PetscErrorCode Begin(PgUp up, PgUpRunSettings *run, const char output[])
+static PetscErrorCode Begin(PgUp up, const char output[])
 {
   PetscInt begun;
 
   PetscFunctionBeginUser;
   PetscCall(PgUpSetUp(up));
-  PetscCall(ChooseSteps(up, run));
-  if (run->restart[0]) PetscCall(PgUpRestart(up));
+  if (up->run.dt <= 0.0) up->run.dt = up->dt;
+  if (up->run.end <= 0.0) up->run.end = up->end;
+  PetscCall(PgCaseRunChooseSteps(&up->run, 0));
+  if (up->again.restart[0]) PetscCall(PgUpRestart(up));
   PetscCall(PgFemGetTime(up->fem, &begun, NULL));
-  PetscCall(PgFemSetUpSolver(up->fem, StepSize(run, PetscMin(begun + 1, run->steps))));
+  PetscCall(PgFemSetUpSolver(up->fem, StepSize(&up->run, PetscMin(begun + 1, up->run.steps))));
   PetscCall(PgOptionsCheckUnused(up->comm, PgFemProbeOptions, up->fem));
   PetscCall(PgUpCheckPlaces(up, output));
   if (output[0])
-    PetscCall(
-        PgFemContinueOutput(up->fem, output, COLUMNS, columns, run->restart[0] ? &run->before : NULL, &run->output));
+    PetscCall(PgFemContinueOutput(up->fem, output, COLUMNS, columns, up->again.restart[0] ? &up->again.before : NULL,
+                                  &up->run.output));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode PgUpRun(PgUp up, const char output[])
 {
-  PgUpRunSettings *run = &up->run;
-  PetscErrorCode   err;
+  PetscErrorCode err;
 
   PetscFunctionBeginUser;
   PetscCall(PgStagePush(PG_STAGE_SETUP));
-  PetscCall(Begin(up, run, output));
+  PetscCall(Begin(up, output));
   PetscCall(PgStagePop());
   PetscCall(PgFemView(up->fem, PETSC_VIEWER_STDOUT_(up->comm)));
-  err = TimeLoop(up, run);
+  err = TimeLoop(up);
   if (!err && output[0]) PetscCall(PetscPrintf(up->comm, "wrote %s\n", output));
-  if (!err) PetscCall(Summary(up, run));
-  PetscCall(PgOutputDestroy(&run->output));
+  if (!err) PetscCall(Summary(up));
+  PetscCall(PgOutputDestroy(&up->run.output));
   PetscFunctionReturn(err);
 }
 

@@ -1,36 +1,31 @@
 /* What the problems of the saturated continuum share: one object, set up by its problem, stepped by up.c. */
 #pragma once
 
-#include "casesimpl.h"
+#include "run.h"
 
 typedef struct PgUpProblem_s PgUpProblem;
 
-/* What -dt and its kin say. */
+/* Checkpoints: where, how often, and what the results were. */
 typedef struct {
-  PetscReal dt, end;        /* [s], 0: of the problem */
-  PetscReal every, history; /* between snapshots, between rows [s], < 0: default */
-  PetscInt  steps;
-  PgOutput  output; /* NULL: none */
-  PgMeter   meter;
-  PgSolves  solves;
-  /* checkpoints */
   char         checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
-  PetscReal    checkpoint_every;                                            /* [s], < 0: default */
+  PetscReal    every;                                                       /* [s], < 0: default */
   PgFemResults before; /* results of the run that goes on, or at the last checkpoint */
-} PgUpRunSettings;
+} PgUpRestartSettings;
 
 struct PgUp_s {
-  MPI_Comm           comm;
-  const PgUpProblem *problem;
-  PgFem              fem;
-  PetscReal          size[2];         /* of the rectangle [m] */
-  PetscReal          low[2], high[2]; /* of the mesh [m] */
-  PetscReal          load;            /* [Pa] or [N/m] */
-  PetscReal          width;           /* of what is loaded [m] */
-  PetscReal          dt, end;         /* [s] */
-  PetscReal          probe[2];        /* where the pressure of the history is taken [m] */
-  PgUpRunSettings    run;
-  PetscBool          drained; /* up_footing: the surface lets water out */
+  MPI_Comm            comm;
+  const PgUpProblem  *problem;
+  PgFem               fem;
+  PetscReal           size[2];         /* of the rectangle [m] */
+  PetscReal           low[2], high[2]; /* of the mesh [m] */
+  PetscReal           load;            /* [Pa] or [N/m] */
+  PetscReal           width;           /* of what is loaded [m] */
+  PetscReal           dt, end;         /* [s] */
+  PetscReal           probe[2];        /* where the pressure of the history is taken [m] */
+  PgCaseRun           run;
+  PgSolves            solves;
+  PgUpRestartSettings again;
+  PetscBool           drained; /* up_footing: the surface lets water out */
 };
 
 struct PgUpProblem_s {
@@ -47,11 +42,8 @@ struct PgUpProblem_s {
 PETSC_INTERN const PgUpProblem PgUpTerzaghi, PgUpMandel, PgUpFooting;
 PETSC_INTERN PetscErrorCode    PgUpCreateProblem(MPI_Comm comm, const PgUpProblem *problem, PgUp *up);
 
-/* The length of the last step may differ from that of the others by this part of it, for rounding. */
-#define PG_UP_UNEVEN 1e-6
-
 /* up_restart.c: checkpoints of a run whose steps have been chosen. All collective. */
-PETSC_INTERN PetscErrorCode PgUpRestartOptions(PgUp up, PetscOptionItems *PetscOptionsObject);
+PETSC_INTERN PetscErrorCode PgUpRestartOptions(void *up, PetscOptionItems *PetscOptionsObject);
 PETSC_INTERN PetscErrorCode PgUpCheckPlaces(PgUp up, const char output[]);
 PETSC_INTERN PetscErrorCode PgUpRestart(PgUp up);
 /* Writes one when it is due after this step. */

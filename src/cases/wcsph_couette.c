@@ -19,26 +19,13 @@ static PetscErrorCode Create(PgLiquid l, PetscOptionItems *PetscOptionsObject)
 
 static PetscErrorCode Fill(PgLiquid l)
 {
-  PgLiquidBlock block = {.kind = PG_WCSPH_FLUID, .columns = l->columns, .rows = l->cells};
-  PetscInt      layers;
-
   PetscFunctionBeginUser;
   PgInputCheck(l->g[0] == 0.0 && l->g[1] == 0.0, l->comm,
                "option -wcsph_gravity: the flow under a moving plate has no other force, not (%g, %g) m/s2",
                (double)l->g[0], (double)l->g[1]);
   PgInputCheck(l->mu > 0.0, l->comm, "option -wcsph_viscosity: a flow under a moving plate needs a viscosity");
   PgInputCheck(l->speed != 0.0, l->comm, "option -wcsph_couette_speed: the plate must move");
-  PetscCall(PgWcsphSetPeriodicX(l->wcsph, 0.0, l->dx * (PetscReal)l->columns));
-  PetscCall(PgLiquidWallLayers(l, &layers));
-  PetscCall(PgLiquidAddBlock(l, &block));
-  block.kind   = PG_WCSPH_WALL;
-  block.rows   = layers;
-  block.low[1] = -l->dx * (PetscReal)layers;
-  PetscCall(PgLiquidAddBlock(l, &block));
-  block.body        = 1;
-  block.low[1]      = l->height;
-  block.velocity[0] = l->speed;
-  PetscCall(PgLiquidAddBlock(l, &block));
+  PetscCall(PgLiquidAddChannel(l, l->speed));
   PetscFunctionReturn(0);
 }
 

@@ -16,25 +16,13 @@ static PetscErrorCode Create(PgLiquid l, PetscOptionItems *PetscOptionsObject)
 
 static PetscErrorCode Fill(PgLiquid l)
 {
-  PgLiquidBlock block = {.kind = PG_WCSPH_FLUID, .columns = l->columns, .rows = l->cells};
-  PetscInt      layers;
-
   PetscFunctionBeginUser;
   PgInputCheck(l->g[0] != 0.0 && l->g[1] == 0.0, l->comm,
                "option -wcsph_gravity: a flow between plates needs a force along x alone, not (%g, %g) m/s2",
                (double)l->g[0], (double)l->g[1]);
   PgInputCheck(l->mu > 0.0, l->comm, "option -wcsph_viscosity: a flow between plates needs a viscosity");
   l->speed = PetscAbsReal(l->g[0]) * l->rho_0 * PetscSqr(l->height) / (8.0 * l->mu);
-  PetscCall(PgWcsphSetPeriodicX(l->wcsph, 0.0, l->dx * (PetscReal)l->columns));
-  PetscCall(PgLiquidWallLayers(l, &layers));
-  PetscCall(PgLiquidAddBlock(l, &block));
-  block.kind   = PG_WCSPH_WALL;
-  block.rows   = layers;
-  block.low[1] = -l->dx * (PetscReal)layers;
-  PetscCall(PgLiquidAddBlock(l, &block));
-  block.body   = 1;
-  block.low[1] = l->height;
-  PetscCall(PgLiquidAddBlock(l, &block));
+  PetscCall(PgLiquidAddChannel(l, 0.0));
   PetscFunctionReturn(0);
 }
 

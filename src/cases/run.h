@@ -1,0 +1,39 @@
+/* Steps, results and progress of a case that runs itself: what -dt, -end_time, -output_every, -history_every and -progress
+   say, and what follows from it. */
+#pragma once
+
+#include "casesimpl.h"
+
+typedef struct {
+  MPI_Comm  comm;
+  PetscReal dt, end;        /* [s], 0: of the case */
+  PetscReal every, history; /* between snapshots, between rows [s], < 0: default */
+  PetscInt  steps;
+  PgOutput  output; /* NULL: none */
+  PgMeter   meter;
+} PgCaseRun;
+
+/* The end of a run may be off a whole number of steps by this part of one, for rounding. */
+#define PG_CASE_UNEVEN 1e-6
+
+/* Reads the options; dt and end keep what they had where nothing is said. `more`, which may be NULL, reads further ones
+   that belong to results. Collective, as all that follow but PgCaseRunBar() and PgCaseRunDue(). */
+typedef struct {
+  const char *dt, *history; /* what the help says of their defaults */
+  PetscErrorCode (*more)(void *context, PetscOptionItems *PetscOptionsObject);
+  void *context;
+} PgCaseRunTexts;
+PETSC_INTERN PetscErrorCode PgCaseRunSetFromOptions(MPI_Comm comm, const PgCaseRunTexts *texts, PgCaseRun *run);
+/* Chooses what has not been said, with dt and end as they are now: `rows` of history, 0: one each step. */
+PETSC_INTERN PetscErrorCode PgCaseRunChooseSteps(PgCaseRun *run, PetscInt rows);
+/* Due after `step`: a row of the history, a line on the terminal, a snapshot; the first and last of them if there are results. */
+typedef struct {
+  PetscBool row, line, snapshot;
+} PgCaseRunDueNow;
+PETSC_INTERN PgCaseRunDueNow PgCaseRunDue(const PgCaseRun *run, PetscInt step);
+/* Results of particles. */
+PETSC_INTERN PetscErrorCode PgCaseRunWrite(PgCaseRun *run, PgCaseRunDueNow due, PetscReal time, const PetscReal row[]);
+PETSC_INTERN void           PgCaseRunBar(PgCaseRun *run, PetscInt step); /* after each step */
+/* What `steps` of `count` things have cost, solves if any (NULL), and the files. */
+PETSC_INTERN PetscErrorCode PgCaseRunSummary(const PgCaseRun *run, PetscInt steps, PetscInt count, const char one[],
+                                             const PgSolves *solves, const char solved[]);
