@@ -7,6 +7,7 @@ static const PgProgram program = {
     .examples = "  porograin -options_file options/panel_case1_ns.opts -output panel.h5\n"
                 "  porograin -options_file options/panel_case1_ns.opts -pressure_ksp_type cg -pressure_ksp_monitor\n"
                 "  porograin -case packing -packing discs.csv -fluid darcy -end_time 0.01 -output run.h5\n"
+                "  porograin -case up_terzaghi -up_element q2q1 -output column.h5\n"
                 "  mpiexec -n 4 porograin -options_file options/panel_case1_dry.opts -panel_columns 100\n",
     .often    = "-case -fluid -end_time -dt -output -pressure",
     .collect  = PgSimulationMentionOptions};

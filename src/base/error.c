@@ -190,6 +190,14 @@ PetscErrorCode PgInitialize(int *argc, char ***argv, const char about[])
   PetscFunctionReturn(0);
 }
 
+/* ".opts", ".yaml": what files of options are called. */
+static PetscBool LooksLikeOptionFile(const char name[])
+{
+  const char *end = strrchr(name, '.');
+
+  return (PetscBool)(end && (!strcmp(end, ".opts") || !strcmp(end, ".yaml")));
+}
+
 PetscErrorCode PgRefuseStrayArguments(int argc, char *argv[])
 {
   PetscFunctionBeginUser;
@@ -197,6 +205,8 @@ PetscErrorCode PgRefuseStrayArguments(int argc, char *argv[])
     const PetscBool option = (PetscBool)(argv[i][0] == '-' && (argv[i][1] < '0' || argv[i][1] > '9') &&
                                          argv[i][1] != '.');
     const PetscBool value  = (PetscBool)(!option && i > 1 && argv[i - 1][0] == '-');
+    PgInputCheck(option || value || !LooksLikeOptionFile(argv[i]), PETSC_COMM_WORLD,
+                 "argument '%s' belongs to no option; did you mean -options_file %s?", argv[i], argv[i]);
     PgInputCheck(
         option || value, PETSC_COMM_WORLD,
         "argument '%s' belongs to no option: options start with '-', a list of values has commas and no blanks",

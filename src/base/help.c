@@ -122,6 +122,23 @@ static PetscErrorCode PrintOption(MPI_Comm comm, const PgKnownOption *o, PetscBo
   PetscFunctionReturn(0);
 }
 
+/* What the short help says of an option: of one whose text describes each word that is allowed, the words only. */
+static PetscErrorCode PrintBrief(MPI_Comm comm, const PgKnownOption *o)
+{
+  PgKnownOption brief = *o;
+  char          text[512], allowed[1024];
+
+  PetscFunctionBeginUser;
+  if (o->allowed[0] && !Allowed(o)[0]) {
+    (void)snprintf(text, sizeof text, "%.*s", (int)strcspn(o->text, ":"), o->text);
+    (void)snprintf(allowed, sizeof allowed, "%s; what they are: -help %s", o->allowed, o->name + 1);
+    brief.text    = text;
+    brief.allowed = allowed;
+  }
+  PetscCall(PrintOption(comm, &brief, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
 /* A cell of a table in Markdown: '|' would end it. */
 static PetscErrorCode Cell(MPI_Comm comm, const char text[])
 {
@@ -222,7 +239,7 @@ static PetscErrorCode PrintShort(MPI_Comm comm, const PgProgram *program)
   PetscCall(PetscStrallocpy(program->often, &often));
   for (char *name = strtok_r(often, " ", &rest); name; name = strtok_r(NULL, " ", &rest)) {
     const PgKnownOption *o = PgKnownFind(name);
-    if (o) PetscCall(PrintOption(comm, o, PETSC_TRUE));
+    if (o) PetscCall(PrintBrief(comm, o));
   }
   PetscCall(PetscFree(often));
   PetscCall(PetscPrintf(comm, "\nMore, with -help and one of these words:\n\n"));

@@ -117,7 +117,7 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   b->every    = 1;
   b->kind     = PG_BODY_FINITE;
   b->corners  = PETSC_TRUE;
-  PetscOptionsBegin(comm, "", "case tak_block", "");
+  PetscOptionsBegin(comm, "", "case tak_block: blocks, liquid and bodies", "");
   PetscCall(ReadOptions(b, PetscOptionsObject));
   PetscOptionsEnd();
   PetscCall(PgTakRunOptions(&b->tak, 20.0));

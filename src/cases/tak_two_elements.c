@@ -35,7 +35,7 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   c->solid_density = 2000.0;
   c->layers        = 3;
   c->spare         = 2;
-  PetscOptionsBegin(comm, "", "case tak_two_elements", "");
+  PetscOptionsBegin(comm, "", "case tak_two_elements: two elements in a channel", "");
   PetscCall(PgOptionReal(PetscOptionsObject, "-tak_spacing",
                          "spacing of particles; elements, liquid and channel are 9 spacings high and long", "m",
                          PG_POSITIVE, 1e6, &c->tak.dx, NULL));

@@ -10,7 +10,7 @@ static PetscErrorCode ReadOptions(PgUp up)
   char title[128];
 
   PetscFunctionBeginUser;
-  PetscCall(PetscSNPrintf(title, sizeof title, "case %s", up->problem->name));
+  PetscCall(PetscSNPrintf(title, sizeof title, "case %s: %s", up->problem->name, up->problem->title));
   PetscOptionsBegin(up->comm, "", title, "");
   PetscCall(up->problem->create(up, PetscOptionsObject));
   PetscOptionsEnd();

@@ -29,7 +29,7 @@ struct PgUp_s {
 };
 
 struct PgUpProblem_s {
-  const char *name, *defaults;
+  const char *name, *title, *defaults; /* title: of its options in the help */
   PetscInt    cells[2];
   PetscReal   size[2], load, width;
   PetscErrorCode (*create)(PgUp up, PetscOptionItems *PetscOptionsObject); /* reads options */

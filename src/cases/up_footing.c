@@ -103,6 +103,7 @@ static PetscErrorCode Settlement(PgUp up, PetscReal *settlement)
 }
 
 const PgUpProblem PgUpFooting = {.name       = "up_footing",
+                                 .title      = "a strip footing",
                                  .defaults   = "-up_permeability 0 -up_poisson 0.3 -up_bulk_water 2.2e9",
                                  .cells      = {32, 32},
                                  .size       = {8.0, 8.0},

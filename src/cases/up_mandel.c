@@ -57,6 +57,7 @@ static PetscErrorCode Settlement(PgUp up, PetscReal *settlement)
 }
 
 const PgUpProblem PgUpMandel = {.name       = "up_mandel",
+                                .title      = "a slab pressed between plates",
                                 .defaults   = "",
                                 .cells      = {20, 20},
                                 .size       = {1.0, 1.0},

@@ -57,6 +57,7 @@ static PetscErrorCode Settlement(PgUp up, PetscReal *settlement)
 }
 
 const PgUpProblem PgUpTerzaghi = {.name       = "up_terzaghi",
+                                  .title      = "consolidation of a column",
                                   .defaults   = "",
                                   .cells      = {2, 20},
                                   .size       = {0.1, 1.0},

@@ -122,6 +122,17 @@ static PetscErrorCode ParseAll(MPI_Comm comm, char *text, PgSolverList *list)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode NoSuchSolver(MPI_Comm comm, const char name[], const PgSolverList *list)
+{
+  char   names[2048] = "";
+  size_t used        = 0;
+
+  PetscFunctionBeginUser;
+  for (PetscInt i = 0; i < list->count && used < sizeof names; i++)
+    used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", list->solver[i].name);
+  PgInputError(comm, "option -study_only: no solver '%s' in %s, which has %s", name, list->file, names);
+}
+
 /* Keeps the solvers named in `only`, in the order of the file. */
 static PetscErrorCode Choose(MPI_Comm comm, const char only[], PgSolverList *list)
 {
@@ -138,7 +149,7 @@ static PetscErrorCode Choose(MPI_Comm comm, const char only[], PgSolverList *lis
     PetscBool found = PETSC_FALSE;
     for (PetscInt i = 0; i < list->count; i++)
       if (!strcmp(name[k], list->solver[i].name)) keep[i] = found = PETSC_TRUE;
-    PgInputCheck(found, comm, "option -study_only: no solver '%s' in %s", name[k], list->file);
+    if (!found) PetscCall(NoSuchSolver(comm, name[k], list));
   }
   PetscCall(PetscStrToArrayDestroy(names, name));
   for (PetscInt i = 0; i < list->count; i++) {

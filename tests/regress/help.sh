@@ -11,7 +11,7 @@ lines() { [ "$(wc -l <"$1")" -le "$2" ] || fail "$1 has $(wc -l <"$1") lines"; }
 [ ! -e run.h5 ] || fail '-help runs'
 [ ! -s short.err ] || fail "-help: $(cat short.err)"
 # what a terminal of ordinary height shows in two pages, and the options of the first try
-lines short.txt 90
+lines short.txt 80
 for pattern in '^  porograin -options_file options/panel_case1_ns\.opts' '^  -case$' '^  -fluid$' '^  dem +discs in contact$' \
   '^  pressure ' '^  water ' '^    panel: hexagonal packing' '^-version' '^Exit status: 0 done, 2 bad input'; do
   expect_match "$pattern" short.txt

@@ -173,6 +173,7 @@ row 2 'unknown option -pressure_pc_gamg_threshold 0.1: misspelt, or of a solver 
 row 2 "argument 'stray' belongs to no option" stray
 row 2 "argument '-9.81' belongs to no option: .* commas" -gravity 0 -9.81
 row 2 "argument '2e-6' belongs to no option" -dt 1e-6 2e-6
+row 2 "argument 'panel.opts' belongs to no option; did you mean -options_file panel.opts\?" panel.opts
 
 # ---- files ----
 printf -- '-fluid ns\nbc_left drained\n' >malformed.opts

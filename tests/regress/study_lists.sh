@@ -38,7 +38,7 @@ printf '# nothing\n' >list.txt
 try 2 'list.txt holds no solver'
 
 printf 'good -ksp_type cg -pc_type jacobi\n' >list.txt
-try 2 "no solver 'better'" -study_only better
+try 2 "no solver 'better' in list.txt, which has good" -study_only better
 try 2 'unknown option -study_repeat 2; did you mean -study_repeats' -study_repeat 2
 try 2 'unknown option -bc_lefft drained; did you mean -bc_left' -bc_lefft drained
 try 2 'contradict each other' -panel_columns 12
