@@ -15,6 +15,7 @@ options=$SOURCE_DIR/options
 here=$SOURCE_DIR/tests/bench
 mpiexec=${MPIEXEC:-mpiexec}
 rm -rf values && mkdir values
+[ -x "$BENCH/measure" ] || { echo "bench.sh: $BENCH/measure is not built: cmake --build BUILD --target bench" >&2 && exit 1; }
 grep -v '^-output' "$options/panel_case1_ns.opts" >quiet.opts # no result file: its strains need memory
 echo "what,unit,goal,measured,yardstick,yardstick value,ratio" >bench.csv
 
@@ -87,9 +88,9 @@ pressure() { # kept preconditioners over consecutive steps of Case I
     s=30
     [ "$w" = 25 ] || s=8
     "$POROGRAIN_STUDY" -study stepping -options_file "$options/panel_case1_ns.opts" -panel_columns "$w" \
-      -panel_rows $((2 * w + 1)) -study_solvers "$options/solvers/all.txt" -study_only cg-icc,cg-hypre,cg-hypre-oneway,cg-cholmod \
+      -panel_rows $((2 * w + 1)) -study_solvers "$options/solvers/all.txt" -study_only cg-icc,cg-hypre,cg-hypre-oneway,cg-cholmod,cg-cholesky \
       -study_steps $s -study_output stepping >/dev/null 2>&1
-    for k in icc hypre hypre-oneway cholmod; do
+    for k in icc hypre hypre-oneway cholmod cholesky; do
       put "$k$w" "$(awk -F, -v s="cg-$k" '$1 == s { print $12 }' stepping.csv)"
     done
     rm -f dump*
@@ -160,6 +161,7 @@ for w in 25 316; do
   row "hypre-oneway$w" "pressure step, kept hypre, half smoothing, $(discs "$w") discs" "us/unknown" "$goal" "plain$w" "plain PETSc"
   row "icc$w" "pressure step, kept icc, $(discs "$w") discs" "us/unknown" "$goal" "plainicc$w" "plain PETSc"
   row "cholmod$w" "pressure step, kept CHOLMOD, $(discs "$w") discs" "us/unknown" "$goal"
+  row "cholesky$w" "pressure step, kept Cholesky factor, $(discs "$w") discs" "us/unknown" "$goal"
 done
 for w in 25 316; do
   row "assembly$w" "assembly (weights and values), $(discs "$w") discs" "us/row" "<= 0.2"
