@@ -9,6 +9,7 @@ static PetscBool OnSide(PetscReal side, int s) { return (PetscBool)(((int)side >
 /* The drained side that this disc formed at the start, or -1. */
 static int DrainedSide(PgPore pore, PetscReal side)
 {
+  if (side == 0.0) return -1;
   for (int s = 0; s < PG_SIDE_COUNT; s++)
     if (OnSide(side, s) && pore->boundary[s].kind == PG_BC_DRAINED) return s;
   return -1;

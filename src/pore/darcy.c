@@ -1,6 +1,15 @@
 /* Darcy's law, Eqs. 26-29, 56-58. */
 #include "poreimpl.h"
 
+/* k_p, as given or by Eq. 66 from porosity and diameter. */
+static inline PetscReal Permeability(PgPore pore, PetscReal n, PetscReal radius)
+{
+  const PetscReal d = 2.0 * radius;
+
+  if (!pore->k_p_local) return pore->k_p;
+  return n * n * n * d * d / (150.0 * (1.0 - n) * (1.0 - n) * pore->mu);
+}
+
 /* Extra mobility of the mixture when discs are moved by the same pressure: dt/((1 - n) rho_s). */
 static PetscReal SolidMobility(PgPore pore, PetscInt a, PetscReal dt_f)
 {
@@ -10,7 +19,8 @@ static PetscReal SolidMobility(PgPore pore, PetscInt a, PetscReal dt_f)
 /* The gradient that moves disc a along axis e: on flux sides w = -k_p dp/de is prescribed. */
 static PetscReal Moving(PgPore pore, const PgPoreArrays *s, PetscInt a, int e, PetscReal n)
 {
-  return PgPoreGradient(pore, s, a, e, -PgBoundaryFlux(pore, s, a, e) / PgPermeability(pore, n, s->radius[a]));
+  if (s->side[a] == 0.0) return pore->grad_p[2 * a + e];
+  return PgPoreGradient(pore, s, a, e, -PgBoundaryFlux(pore, s, a, e) / Permeability(pore, n, s->radius[a]));
 }
 
 /* Drag n w V/((1 - n) k_p) of Eq. 29 with w/k_p = -grad p; with the pressure gradient -V grad p the sum is
@@ -53,7 +63,7 @@ static PetscErrorCode Mobility(PgPore pore, PetscReal dt_f, PetscReal kappa[], P
   PetscCall(PgPoreGetArrays(pore, &s));
   PetscCall(PgSphGetCoefficients(pore->sph, &c));
   for (PetscInt a = 0; a < s.owned; a++) {
-    kappa[a] = PgPermeability(pore, pore->n_flow[a], s.radius[a]);
+    kappa[a] = Permeability(pore, pore->n_flow[a], s.radius[a]);
     if (projected && PgPoreHasAddedMass(&s, &c, a)) kappa[a] += SolidMobility(pore, a, dt_f);
   }
   *uniform = (PetscBool)!pore->k_p_local;
@@ -81,9 +91,10 @@ static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
   else
     PetscCall(PetscArrayzero(pore->a, s.owned));
   for (PetscInt a = 0; a < s.owned; a++) {
-    const PetscReal k_p = PgPermeability(pore, pore->n_flow[a], s.radius[a]);
+    const PetscReal k_p    = Permeability(pore, pore->n_flow[a], s.radius[a]);
+    const PetscReal inflow = s.side[a] != 0.0 ? kappa[a] / k_p * (PgBoundaryInflow(pore, &s, a) / s.volume[a]) : 0.0;
 
-    Z[a] += (kappa[a] - k_p) * pore->a[a] - kappa[a] / k_p * (PgBoundaryInflow(pore, &s, a) / s.volume[a]);
+    Z[a] += (kappa[a] - k_p) * pore->a[a] - inflow;
     if (uniform) Z[a] /= kappa[a];
   }
   PetscFunctionReturn(0);
@@ -96,7 +107,7 @@ static PetscErrorCode Correct(PgPore pore, PetscReal dt_f)
   PetscFunctionBeginUser;
   PetscCall(PgPoreGetArrays(pore, &s));
   for (PetscInt a = 0; a < s.owned; a++) {
-    const PetscReal k_p      = PgPermeability(pore, pore->n_flow[a], s.radius[a]);
+    const PetscReal k_p      = Permeability(pore, pore->n_flow[a], s.radius[a]);
     const PetscReal mobility = PgPoreIsProjected(pore) && PgPoreIsFree(&s, a) ? SolidMobility(pore, a, dt_f) : 0.0;
 
     for (int e = 0; e < 2; e++) {

@@ -44,26 +44,12 @@ PetscErrorCode PgDragLawFind(const char name[], const PgDragLaw **law)
   PetscFunctionReturn(0);
 }
 
-/* Ergun's law for all discs, in a form that the compiler vectorises; what is more porous comes after. */
-static void ErgunLoop(PgPore pore, const PgPoreArrays *s, const PetscReal u[], PetscReal F[])
-{
-  const PetscReal viscous = 150.0 * pore->mu, inertial = 1.75 * pore->rho_f;
-
-  for (PetscInt a = 0; a < s->owned; a++) {
-    const PetscReal rx = s->v[2 * a] - u[2 * a], ry = s->v[2 * a + 1] - u[2 * a + 1], n = s->n[a];
-    const PetscReal speed = PetscSqrtReal(rx * rx + ry * ry), k = (1.0 - n) / (n * (2.0 * s->radius[a]));
-    const PetscReal beta = s->detached[a] != 0.0 ? 0.0 : k * (viscous * k + inertial * speed);
-    F[2 * a]             = beta * rx;
-    F[2 * a + 1]         = beta * ry;
-  }
-}
-
 PetscErrorCode PgDragForce(PgPore pore, const PgPoreArrays *s, const PetscReal u[], PetscReal F[])
 {
   const PetscBool ergun = (PetscBool)(pore->drag_law->beta == ErgunWenYu);
 
   PetscFunctionBeginUser;
-  if (ergun) ErgunLoop(pore, s, u, F);
+  if (ergun) PgErgunLoop(s->owned, 150.0 * pore->mu, 1.75 * pore->rho_f, s, u, F);
   for (PetscInt a = 0; a < s->owned; a++) {
     PetscReal rx, ry, beta;
 
@@ -77,12 +63,4 @@ PetscErrorCode PgDragForce(PgPore pore, const PgPoreArrays *s, const PetscReal u
     F[2 * a + 1] = beta * ry;
   }
   PetscFunctionReturn(0);
-}
-
-PetscReal PgPermeability(PgPore pore, PetscReal n, PetscReal radius)
-{
-  const PetscReal d = 2.0 * radius;
-
-  if (!pore->k_p_local) return pore->k_p;
-  return n * n * n * d * d / (150.0 * (1.0 - n) * (1.0 - n) * pore->mu);
 }

@@ -16,7 +16,7 @@ static void ForceOnDiscs(PgPore pore, const PgPoreArrays *s, const PetscReal F[]
       /* a disc on a plate is not projected: its vertical force belongs to the reaction of the plate */
       const PetscBool on_plate = (PetscBool)(pressure && s->plate[a] != 0.0 && i == 1);
       const PetscBool kick     = (PetscBool)(increment && PgPoreIsFree(s, a)); /* to be replaced by the new one */
-      const PetscReal moving   = PgPoreGradient(pore, s, a, i, F[2 * a + i]);
+      const PetscReal moving   = kick ? PgPoreGradient(pore, s, a, i, F[2 * a + i]) : 0.0;
       s->kick[2 * a + i]       = kick ? -dt_f / pore->rho_s * moving : 0.0;
       if (kick) f -= V_p * moving;
       if ((staggered || on_plate) && s->detached[a] == 0.0) f -= V_p * pore->grad_p[2 * a + i];
@@ -129,7 +129,7 @@ static PetscErrorCode Source(PgPore pore, PetscReal dt_f, PetscReal Z[])
       Z[a]                  = (Z[a] + added * pore->a[a]) / (1.0 + added);
     }
     /* where u.e is prescribed Eq. 47 leaves dp/de = F.e, which a side with nothing said about its pressure has not */
-    Z[a] -= PgBoundaryForce(pore, &s, s.drag, a) / s.volume[a];
+    if (s.side[a] != 0.0) Z[a] -= PgBoundaryForce(pore, &s, s.drag, a) / s.volume[a];
   }
   PetscFunctionReturn(0);
 }

@@ -132,7 +132,9 @@ PETSC_INTERN PetscReal PgBoundaryForce(PgPore pore, const PgPoreArrays *s, const
 
 /* F^sf on the water at owned discs, zero where detached [N/m3]. */
 PETSC_INTERN PetscErrorCode PgDragForce(PgPore pore, const PgPoreArrays *s, const PetscReal u[], PetscReal F[]);
-PETSC_INTERN PetscReal      PgPermeability(PgPore pore, PetscReal n, PetscReal radius);
+/* The same by Ergun's law: `viscous` is 150 mu, `inertial` 1.75 rho_f. Discs more porous than it holds for are wrong. */
+PETSC_INTERN void PgErgunLoop(PetscInt count, PetscReal viscous, PetscReal inertial, const PgPoreArrays *s,
+                              const PetscReal u[], PetscReal F[]);
 /* u(x_f) = B^-1 u*, Eqs. 38-40, and p(x_f), Eq. 59, from grad_u and grad_p. */
 PETSC_INTERN PetscErrorCode PgCharacteristic(PgPore pore, const PgPoreArrays *s, PetscReal dt_f, PetscReal u_f[],
                                              PetscReal p_f[]);
@@ -181,7 +183,7 @@ static inline PetscBool PgPoreIsFree(const PgPoreArrays *s, PetscInt a)
    discs moved by it would gain energy in every step. */
 static inline PetscReal PgPoreGradient(PgPore pore, const PgPoreArrays *s, PetscInt a, int e, PetscReal prescribed)
 {
-  return PgBoundaryHolds(pore, s, a, e) ? prescribed : pore->grad_p[2 * a + e];
+  return s->side[a] != 0.0 && PgBoundaryHolds(pore, s, a, e) ? prescribed : pore->grad_p[2 * a + e];
 }
 
 /* Discs whose equation has the added mass: those that the projection moves, and those on a plate next to them, since
