@@ -9,13 +9,48 @@ PetscReal PgPlotMargin(const PetscReal low[2], const PetscReal high[2])
   return MARGIN * PetscMax(high[0] - low[0], high[1] - low[1]);
 }
 
-/* Between two tics: the same on both axes, but where the shorter would have less than two. */
+/* Tics of an axis at the multiples of `step`: how many, and the characters of the longest number. */
+static PetscInt Tics(const PetscReal low[2], const PetscReal high[2], int axis, PetscReal step, PetscInt *longest)
+{
+  const PetscReal margin = PgPlotMargin(low, high);
+  PetscInt        n      = 0;
+
+  *longest = 0;
+  for (PetscReal k = PetscCeilReal((low[axis] - margin) / step); k * step <= high[axis] + margin; k += 1.0) {
+    char text[64];
+    (void)snprintf(text, sizeof text, "%g", (double)(k * step)); /* as gnuplot writes it */
+    *longest = PetscMax(*longest, (PetscInt)strlen(text));
+    n++;
+  }
+  return n;
+}
+
+/* Between two tics: the same on both axes, but where the shorter would have less than two, or where numbers below it
+   would touch each other: then more, as long as there are two. */
 PetscReal PgPlotTicStep(const PetscReal low[2], const PetscReal high[2], int axis)
 {
   const PetscReal longest = PetscMax(high[0] - low[0], high[1] - low[1]);
+  PetscReal       step;
+  PetscInt        characters, ignored;
 
   /* a third is rounded to less than half */
-  return PetscMin(PgPlotRound(longest / 5.0), PgPlotRound((high[axis] - low[axis]) / 3.0));
+  step = PetscMin(PgPlotRound(longest / 5.0), PgPlotRound((high[axis] - low[axis]) / 3.0));
+  while (axis == 0) {
+    const PetscReal next = PgPlotRound(2.1 * step); /* 1, 2, 5, 10 */
+    (void)Tics(low, high, axis, step, &characters);
+    if (PG_PLOT_SHEET * step >= longest * PG_PLOT_CHARACTER * (PetscReal)(characters + 1)) break;
+    if (Tics(low, high, axis, next, &ignored) < 2) break;
+    step = next;
+  }
+  return step;
+}
+
+PetscInt PgPlotTicLength(const PetscReal low[2], const PetscReal high[2], int axis)
+{
+  PetscInt characters;
+
+  (void)Tics(low, high, axis, PgPlotTicStep(low, high, axis), &characters);
+  return characters;
 }
 
 /* Axes in mm, the same scale on both, `low` to `high` and a margin. */

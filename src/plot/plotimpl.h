@@ -182,7 +182,8 @@ PETSC_INTERN PetscErrorCode PgScriptPalette(PgScript *script, PetscBool is_signe
 
 /* ---- drawing.c: pieces of pictures of discs ---- */
 
-#define PG_PLOT_CHARACTER 8.0 /* width of a digit in 11 points, and a little [pixels] */
+#define PG_PLOT_CHARACTER 8.0   /* width of a digit in 11 points, and a little [pixels] */
+#define PG_PLOT_SHEET     380.0 /* longer side of the axes on a sheet [pixels]; no picture has smaller ones */
 /* Labels of a colour bar: every `step`, with as many digits as tell neighbours apart. */
 typedef struct {
   PetscReal step;
@@ -194,7 +195,9 @@ PETSC_INTERN PgPlotBarLabels PgPlotBarLabelsOf(const PgPlotRange *range, PetscRe
 PETSC_INTERN void            PgPlotLabelBar(FILE *file, const PgPlotRange *range, PetscReal step);
 PETSC_INTERN PetscReal       PgPlotMargin(const PetscReal low[2], const PetscReal high[2]);
 PETSC_INTERN PetscReal       PgPlotTicStep(const PetscReal low[2], const PetscReal high[2], int axis);
-PETSC_INTERN void            PgPlotAxes(FILE *f, const PetscReal low[2], const PetscReal high[2]);
+/* Characters of the longest number at the tics. */
+PETSC_INTERN PetscInt PgPlotTicLength(const PetscReal low[2], const PetscReal high[2], int axis);
+PETSC_INTERN void     PgPlotAxes(FILE *f, const PetscReal low[2], const PetscReal high[2]);
 PETSC_INTERN void PgPlotPixels(const PetscReal low[2], const PetscReal high[2], PetscReal longest, PetscReal pixels[2]);
 PETSC_INTERN const char *PgPlotUnit(const PgPlotField *field);
 PETSC_INTERN void PgPlotDrawDiscs(FILE *f, const char data[], PetscInt column, PetscInt discs, PetscBool is_signed,

@@ -251,16 +251,7 @@ static PetscReal CellHeight(const Cells *c) { return c->pixels[1] + ABOVE + BELO
 /* Width of "y [mm]" with the numbers at the tics [pixels]; of three digits the least, which the load needs as well. */
 static PetscReal LeftOf(const PgPlotDiscs *discs)
 {
-  const PetscReal step = PgPlotTicStep(discs->low, discs->high, 1), margin = PgPlotMargin(discs->low, discs->high);
-  const PetscInt  first   = (PetscInt)PetscCeilReal((discs->low[1] - margin) / step);
-  size_t          longest = 0;
-
-  for (PetscInt k = first; (PetscReal)k * step <= discs->high[1] + margin; k++) {
-    char text[64];
-    (void)snprintf(text, sizeof text, "%g", (double)((PetscReal)k * step)); /* as gnuplot writes it */
-    longest = PetscMax(longest, strlen(text));
-  }
-  return PetscMax(LEAST_LEFT, LABEL + PG_PLOT_CHARACTER * (PetscReal)longest);
+  return PetscMax(LEAST_LEFT, LABEL + PG_PLOT_CHARACTER * (PetscReal)PgPlotTicLength(discs->low, discs->high, 1));
 }
 
 static void Place(FILE *file, PetscInt cell, const Cells *cells)
@@ -281,8 +272,26 @@ static void Place(FILE *file, PetscInt cell, const Cells *cells)
                 (double)(pixels[1] / height));
 }
 
+/* Between the tics of an axis from 0 to `most` of so many pixels: at most about five, with room between their labels. */
+static PetscReal LoadTicStep(PetscReal most, PetscReal pixels)
+{
+  PetscReal step = 1.0;
+
+  for (int tics = 5; most > 0.0 && tics > 1; tics--) {
+    size_t longest = 0;
+    step           = PgPlotRound(most / tics);
+    for (PetscInt k = 1; (PetscReal)k * step <= most; k++) {
+      char text[64];
+      (void)snprintf(text, sizeof text, "%g", (double)((PetscReal)k * step)); /* as gnuplot writes it */
+      longest = PetscMax(longest, strlen(text));
+    }
+    if (pixels * step >= most * PG_PLOT_CHARACTER * (PetscReal)(longest + 2)) break;
+  }
+  return step;
+}
+
 /* In the last cell, when it is free: where on the curve of the load the snapshot is. */
-static PetscErrorCode LoadCell(const Sheet *s, FILE *file)
+static PetscErrorCode LoadCell(const Sheet *s, PetscReal pixels, FILE *file)
 {
   PetscReal displacement, *all, most = 0.0;
   PetscBool known;
@@ -297,7 +306,7 @@ static PetscErrorCode LoadCell(const Sheet *s, FILE *file)
       file,
       "set size noratio\nset xrange [0:*]\nset autoscale xfixmax\nset yrange [*:*]\nset xtics %.4g\n"
       "set ytics autofreq\nset title \"load [kN/m]\\n{/*0.85 }\"\nset xlabel 'displacement [mm]'\nset ylabel ''\n",
-      (double)(most > 0.0 ? PgPlotRound(most / 5.0) : 1.0));
+      (double)LoadTicStep(most, pixels));
   if (known)
     (void)fprintf(file, "set arrow from first %.6g,graph 0 to first %.6g,graph 1 nohead dt 2 lc rgb '#888888'\n",
                   1e3 * (double)displacement, 1e3 * (double)displacement);
@@ -317,7 +326,7 @@ static PetscErrorCode All(Sheet *s)
   PetscFunctionBeginUser;
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-fields", s->base));
   cells.left = LeftOf(&s->discs);
-  PgPlotPixels(s->discs.low, s->discs.high, 380.0, cells.pixels);
+  PgPlotPixels(s->discs.low, s->discs.high, PG_PLOT_SHEET, cells.pixels);
   for (PetscInt f = 0; f < s->fields; f++) cells.bar = PetscMax(cells.bar, BarWidth(s, f));
   PetscCall(PgScriptBegin(s->plot, name, CellWidth(&cells) * (PetscReal)columns,
                           CellHeight(&cells) * (PetscReal)cells.rows + HEAD, png_only, &script));
@@ -328,7 +337,7 @@ static PetscErrorCode All(Sheet *s)
   for (PetscInt f = 0; f < count; f++) {
     Place(script.file, f, &cells);
     if (f == s->fields) {
-      PetscCall(LoadCell(s, script.file));
+      PetscCall(LoadCell(s, cells.pixels[0], script.file));
       break;
     }
     (void)fprintf(script.file, "set xlabel '%s'\nset ylabel '%s'\n", f + columns >= count ? "x [mm]" : "",

@@ -109,22 +109,6 @@ static void Draw(FILE *f, const Series *s, const char name[], const char x[], co
   DrawSeries(f, s, name, x, y, drawn, growth);
 }
 
-/* The same, each point with its fourth column written beside it, in the colour of its series: above it and below it in
-   turn, since points of different series may lie near each other. */
-static void Labels(FILE *f, PetscReal size, const Series *s, const char name[], const char x[], const char y[],
-                   const PetscInt drawn[])
-{
-  (void)fprintf(f, "plot ");
-  for (PetscInt k = 0, n = 0; k < s->count; k++) {
-    if (!drawn[k]) continue;
-    (void)fprintf(f, "'%s.dat' index %d using (%s):(%s):4 with labels %s font ',%.3g' tc rgb '%s' notitle, \\\n  ",
-                  name, (int)k, x, y, n % 2 ? "right offset -0.6,-0.5" : "left offset 0.6,0.5", (double)(8.5 * size),
-                  PgScriptColour(k));
-    n++;
-  }
-  DrawSeries(f, s, name, x, y, drawn, NULL);
-}
-
 static PetscInt Sum(PetscInt n, const PetscInt value[])
 {
   PetscInt sum = 0;
@@ -295,51 +279,131 @@ static PetscErrorCode Sweeps(PgPlot plot, const PgPlotSource *source)
   PetscFunctionReturn(0);
 }
 
-/* Error against cost: a line for each method, its points labelled with M, the steps of the discs in one of the water.
-   The reference, which has no error, is a line at its cost. */
+/* What the runs of a study have: the values of M, the steps of the discs in one of the water, each once and in order; and
+   the powers of ten between which the times are. */
+typedef struct {
+  PetscInt count, *every;
+  int      decade[2];
+} Runs;
+
+static PetscErrorCode RunsCreate(const PgPlotSource *source, PetscInt rows, Runs *runs)
+{
+  PetscReal least = PETSC_MAX_REAL, most = 0.0;
+
+  PetscFunctionBeginUser;
+  runs->count = 0;
+  PetscCall(PetscMalloc1(rows, &runs->every));
+  for (PetscInt i = 0; i < rows; i++) {
+    PetscReal every, time;
+    PetscCall(PgPlotSourceReal(source, "cost", i, "fluid_every", &every));
+    PetscCall(PgPlotSourceReal(source, "cost", i, "per_step", &time));
+    if (isfinite(every)) runs->every[runs->count++] = (PetscInt)every;
+    if (!(time > 0.0)) continue;
+    least = PetscMin(least, time);
+    most  = PetscMax(most, time);
+  }
+  PetscCall(PetscSortRemoveDupsInt(&runs->count, runs->every));
+  runs->decade[0] = most > 0.0 ? (int)PetscFloorReal(PetscLog10Real(least)) : 0;
+  runs->decade[1] = most > 0.0 ? (int)PetscFloorReal(PetscLog10Real(most)) : 0;
+  PetscFunctionReturn(0);
+}
+
+/* Points of one shape, told apart also where they are small: full ones first. */
+static int Shape(PetscInt k)
+{
+  static const int shape[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10, 1, 2, 3};
+
+  return shape[k % (PetscInt)(sizeof shape / sizeof *shape)];
+}
+
+/* One panel: column y against the time. The colour of a line tells the method, the shape of its points M; the first
+   panel explains the lines below itself, the second the shapes. */
+static void DrawCost(FILE *f, const Series *s, const char name[], int panel, const Runs *runs, const PetscInt drawn[])
+{
+  const int y = panel + 2;
+  char      quoted[PG_PLOT_TEXT + 8];
+
+  (void)fprintf(f, "set key at screen 0.5,%g center bottom maxrows %d noenhanced\nplot ", panel ? 0.065 : 0.115,
+                panel ? 1 : 2);
+  for (PetscInt k = 0; k < s->count; k++) {
+    if (!drawn[k]) continue;
+    (void)fprintf(
+        f, "'%s.dat' index %d using 1:($%d > 0 ? $%d : NaN) with lines lw 1.3 lc rgb '%s' dt %d title '%s', \\\n  ",
+        name, (int)k, y, y, PgScriptColour(k), (int)PgScriptDash(k),
+        panel ? "" : PgScriptQuote(s->key[s->first[k]], quoted, sizeof quoted));
+    for (PetscInt m = 0; m < runs->count; m++)
+      (void)fprintf(
+          f,
+          "'' index %d using 1:($4 == %d && $%d > 0 ? $%d : NaN) with points pt %d ps 1.1 lc rgb '%s' notitle, \\\n  ",
+          (int)k, (int)runs->every[m], y, y, Shape(m), PgScriptColour(k));
+  }
+  for (PetscInt m = 0; m < runs->count; m++) {
+    (void)fprintf(f, "%sNaN with points pt %d ps 1.1 lc rgb '#666666' ", m ? ", \\\n  " : "", Shape(m));
+    if (panel)
+      (void)fprintf(f, "title 'M = %d'", (int)runs->every[m]);
+    else
+      (void)fprintf(f, "notitle");
+  }
+  (void)fprintf(f, "\n");
+}
+
+/* What both panels have. */
+static void CostAxes(FILE *f, PetscReal size, const Runs *runs, PetscReal reference, const char reference_name[],
+                     PetscReal reference_every)
+{
+  char quoted[PG_PLOT_TEXT + 8];
+
+  (void)fprintf(f, "set multiplot layout 1,2 margins 0.09,0.98,0.35,0.96 spacing 0.1,0\n");
+  Style(f, "time [µs per disc and step of the discs]", "", PETSC_TRUE, PETSC_TRUE);
+  (void)fprintf(
+      f,
+      "set format x '%%g'\nset format y '%%g'\nset autoscale fix\n"
+      "set offsets graph 0.08, graph 0.08, graph 0.08, graph 0.08\n"
+      "do for [e=%d:%d] {\n  set xtics add (sprintf('%%g', 2*10.0**e) 2*10.0**e, sprintf('%%g', 5*10.0**e) "
+      "5*10.0**e)\n}\n"
+      "do for [e=-9:3] {\n  set ytics add (sprintf('%%g', 2*10.0**e) 2*10.0**e, sprintf('%%g', 5*10.0**e) "
+      "5*10.0**e)\n}\n"
+      "set arrow from first %.6g,graph 0 to first %.6g,graph 1 nohead dt 2 lc rgb '#888888'\n"
+      "set label 'M: steps of the discs in one of the water; explicitK: K sweeps, implicitR: to a residual "
+      "R; dashed: time of the reference (%s, M = %g)' at screen 0.5,0.025 center tc rgb '#666666' font ',%.3g'\n",
+      runs->decade[0], runs->decade[1], (double)reference, (double)reference,
+      PgScriptQuote(reference_name, quoted, sizeof quoted), (double)reference_every, 9.0 * (double)size);
+}
+
+/* Error against cost. The reference, which has no error, is a line at its cost. */
 static PetscErrorCode Cost(PgPlot plot, const PgPlotSource *source)
 {
   static const char *const by[2]     = {"variant", NULL};
   static const char *const column[4] = {"per_step", "load_error", "pressure_error", "fluid_every"};
   static const char *const label[2]  = {"error of the load (rms)", "error of the pressure (L2)"};
   Series                   s;
+  Runs                     runs;
   PetscInt                *drawn;
-  PetscReal                reference, every;
+  PetscReal                reference, reference_every;
   PgScript                 script;
-  char                     name[256], y[64], quoted[PG_PLOT_TEXT + 8];
+  char                     name[256];
 
   PetscFunctionBeginUser;
   PetscCall(SeriesCreate(source, "cost", by, "", &s));
+  PetscCall(RunsCreate(source, s.rows, &runs));
   PetscCall(PetscMalloc1(s.count, &drawn));
   PetscCall(PetscSNPrintf(name, sizeof name, "%s-cost", source->stem));
   PetscCall(WriteSeries(plot, source, "cost", &s, name, 4, column, drawn));
   if (Sum(s.count, drawn)) {
     PetscCall(PgPlotSourceReal(source, "cost", 0, "per_step", &reference));
-    PetscCall(PgPlotSourceReal(source, "cost", 0, "fluid_every", &every));
-    PetscCall(PgScriptBegin(plot, name, 960.0, 480.0, PETSC_FALSE, &script));
+    PetscCall(PgPlotSourceReal(source, "cost", 0, "fluid_every", &reference_every));
+    PetscCall(PgScriptBegin(plot, name, 960.0, 500.0, PETSC_FALSE, &script));
     PetscCall(PgScriptPicture(&script));
-    (void)fprintf(script.file, "set multiplot layout 1,2 margins 0.09,0.98,0.3,0.95 spacing 0.1,0\n");
-    Style(script.file, "time [µs per disc and step of the discs]", "", PETSC_TRUE, PETSC_TRUE);
-    (void)fprintf(script.file,
-                  "set format x '%%g'\nset format y '%%g'\nset autoscale fix\n"
-                  "set offsets graph 0.08, graph 0.08, graph 0.08, graph 0.08\n"
-                  "do for [e=-9:3] {\n  set xtics add (sprintf('%%g', 2*10.0**e) 2*10.0**e, sprintf('%%g', 5*10.0**e) "
-                  "5*10.0**e)\n"
-                  "  set ytics add (sprintf('%%g', 2*10.0**e) 2*10.0**e, sprintf('%%g', 5*10.0**e) 5*10.0**e)\n}\n"
-                  "set arrow from first %.6g,graph 0 to first %.6g,graph 1 nohead dt 2 lc rgb '#888888'\n"
-                  "set label 'labels: M; dashed: the reference (%s, M = %g); explicitK: K sweeps, implicitR: to a "
-                  "residual R' at screen 0.5,0.025 center tc rgb '#666666'\n",
-                  (double)reference, (double)reference, PgScriptQuote(s.key[0], quoted, sizeof quoted), (double)every);
+    CostAxes(script.file, plot->size, &runs, reference, s.key[0], reference_every);
     for (int p = 0; p < 2; p++) {
-      (void)fprintf(script.file, "set ylabel '%s'\n%s\n", label[p],
-                    p ? "unset key" : "set key at screen 0.5,0.06 center bottom maxrows 2 noenhanced");
-      (void)snprintf(y, sizeof y, "$%d > 0 ? $%d : NaN", p + 2, p + 2);
-      Labels(script.file, plot->size, &s, name, "$1", y, drawn);
+      (void)fprintf(script.file, "set ylabel '%s'\n", label[p]);
+      DrawCost(script.file, &s, name, p, &runs, drawn);
     }
     (void)fprintf(script.file, "unset multiplot\n");
     PetscCall(PgScriptEnd(&script));
   }
   PetscCall(PetscFree(drawn));
+  PetscCall(PetscFree(runs.every));
   PetscCall(SeriesDestroy(&s));
   PetscFunctionReturn(0);
 }

@@ -74,6 +74,22 @@ tics() { # SHEET: longest number at the y axis
 "$POROGRAIN_PLOT" large.h5 -figures large -plot_fields rotation,porosity -plot_gnuplot none >large.out
 [ "$(tics large/large-fields.gp)" -ge 5 ] || fail "numbers at the y axis of a large panel: $(tics large/large-fields.gp)"
 tics narrow/narrow-fields.gp >/dev/null
+# Numbers below the x axes of a tower, of discs and of the load, do not touch: 7 pixels each, and 4 in between.
+"$POROGRAIN" -options_file "$SOURCE_DIR/options/panel_case1_dry.opts" -panel_columns 4 -panel_rows 33 -panel_displacement 1.7e-4 -output tower.h5 >tower.log
+"$POROGRAIN_PLOT" tower.h5 -figures tower -plot_fields rotation,porosity,effective_strain -plot_gnuplot none >tower.out
+tics tower/tower-fields.gp >/dev/null
+awk 'NR == FNR { if ($1 > way) way = $1; next }
+  /set terminal svg size/ { split($5, size, ",") }
+  /^set [xy]range/ { split(substr($3, 2), range, ":"); span = range[2] - range[1]; if (span > longest) longest = span }
+  /^set lmargin/ { left = $5 } /^set rmargin/ { wide = ($5 - left) * size[1] }
+  /^set xrange/ { to = range[2] + 0; if (range[2] ~ /[*]/) { load = 1; to = way } }
+  /^set ytics/ && !load { check(380 / longest) }
+  /^set xtics/ { step = $3; if (load) check(wide / way) }
+  function check(scale, i, digits) {
+    for (i = 1; i * step <= to; i++) if (length(sprintf("%g", i * step)) > digits) digits = length(sprintf("%g", i * step))
+    if (step * scale < 7 * digits + 4) { print "every " step ": " step * scale " pixels for " digits " digits"; bad = 1 }
+    checked++ }
+  END { exit bad || checked != 2 }' tower/tower-load.dat tower/tower-fields.gp || fail 'numbers at the x axes of a tower'
 # All discs but two rotate by round-off: the scale goes to the two. At the start nothing rotates: that is said, without
 # a scale.
 scale=$(sed -n 's/^set cbrange \[.*:\(.*\)\]$/\1/p' large/large-rotation.gp)
@@ -143,6 +159,18 @@ expect_match "cg-gamg  N\^$(printf '%.2f' "$growth")'" scripts/study-growth.gp
 expect_match "set xtics \('199' 199, '1249' 1249\)" scripts/study-growth.gp
 for f in study-residuals-1 study-residuals-2; do [ -s "scripts/$f.gp" ] || fail "no $f.gp"; done
 
+# Cost against accuracy: the shape of a point tells M, the same in both panels and explained in the second.
+"$POROGRAIN_STUDY" -study explicit -options_file "$SOURCE_DIR/options/panel_case1_ns.opts" -panel_columns 6 -panel_rows 13 -study_at 1 \
+  -study_sweeps 0,1 -study_time 8e-5 -study_samples 2 -study_variants implicit:1,explicit1:1,explicit1:20,implicit:4,explicit5:4 \
+  -study_output cost >cost.log
+"$POROGRAIN_PLOT" cost.h5 -figures scripts -plot_gnuplot none >cost.out
+sed -n "s/.*[$]4 == \([0-9]*\) .* pt \([0-9]*\) .*/\1 \2/p" scripts/cost-cost.gp >points
+sed -n "s/.* pt \([0-9]*\) .* title 'M = \([0-9]*\)'.*/\2 \1/p" scripts/cost-cost.gp >key
+[ "$(awk '{ print $1 }' key | paste -sd ' ')" = '1 4 20' ] || fail "shapes explained: $(cat key)"
+[ "$(awk '{ print $2 }' key | sort -u | wc -l)" -eq 3 ] || fail "one shape for two M: $(cat key)"
+# two panels, three methods, each with three possible M
+[ "$(wc -l <points)" -eq 18 ] && [ "$(sort -u points)" = "$(sort key)" ] || fail "shapes drawn: $(sort points | uniq -c)"
+
 # Errors: message and status, and nothing half-written.
 expect_error 2 "^porograin-plot: error: .*no file to plot" "$POROGRAIN_PLOT" -figures none
 expect_error 4 "result file 'missing.h5': " "$POROGRAIN_PLOT" missing.h5 -figures none
@@ -179,10 +207,10 @@ if ! command -v gnuplot >/dev/null; then
   echo 'gnuplot is not installed: pictures are not tested'
   exit 0
 fi
-"$POROGRAIN_PLOT" "wet run's.h5" dry.h5 study.h5 -figures pictures -plot_film pressure -plot_size 0.6 >pictures.out 2>pictures.err
+"$POROGRAIN_PLOT" "wet run's.h5" dry.h5 study.h5 cost.h5 -figures pictures -plot_film pressure -plot_size 0.6 >pictures.out 2>pictures.err
 [ ! -s pictures.err ] || fail "gnuplot complains: $(head -n 3 pictures.err)"
 for f in load $wet-{effective_strain,volumetric_strain,rotation,porosity,pressure,streamlines,relative_speed,fields,history} \
-  dry-{rotation,fields,history} study-growth study-residuals-2; do
+  dry-{rotation,fields,history} study-growth study-residuals-2 cost-cost; do
   [ "$(head -c 8 "pictures/$f.png" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$f.png is not a PNG file"
   [ "$(tail -c 8 "pictures/$f.png" | od -An -c | tr -d ' \n')" = 'IEND256B`202' ] || fail "$f.png has no end"
   head -c 300 "pictures/$f.svg" | grep -q '<svg' || fail "$f.svg is not an SVG file"
