@@ -5,12 +5,13 @@
 # leads somewhere. Blocks of shell begin with ```sh, programs in Python with ```python; what stands above them says how:
 #   <!-- long -->                   only with POROGRAIN_LONG_TESTS
 #   <!-- short PROGRAM: OPTIONS --> options that PROGRAM gets besides, in short runs
-#   <!-- by: FILE -->               another test, FILE, runs it
+#   <!-- by: FILE -->               FILE, another test or a script of .ci, runs it: is seen to, by docs_by.sh
 #   <!-- clone -->                  as it stands, in a new clone of the source, only with POROGRAIN_LONG_TESTS
 #   <!-- needs: WORD... -->         programs or files without which it is left out
 #   <!-- not run: REASON -->        never; but the presets and targets that it names are there
 # and <!-- all ... --> says it for all blocks of the page that follow.
 . "$SOURCE_DIR/tests/support/regress.sh"
+. "$SOURCE_DIR/tests/support/docs_by.sh"
 long=${DOCS_LONG:-no}
 home=$WORK_DIR
 
@@ -98,8 +99,11 @@ page() {
       continue
     fi
     by=$(value "$block" by)
-    [ -z "$by" ] || [ -s "$SOURCE_DIR/$by" ] || fail "$file:$line: there is no $by"
-    [ -z "$by" ] || continue
+    if [ -n "$by" ]; then
+      runs_block "$by" "$file" "$block" || fail "$file:$line"
+      echo "  line $line: by $by"
+      continue
+    fi
     if has "$block" 'not run'; then names_exist "$block"; fi
     if has "$block" 'not run'; then echo "  line $line: not run: $(value "$block" 'not run')"; continue; fi
     if has "$block" '\(long\|clone\)' && [ "$long" = no ]; then continue; fi

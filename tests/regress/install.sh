@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # timeout: 300
 # What cmake --install lays out works from any folder and without the source: programs, option files, manual pages, and
-# the library through pkg-config; and so does the Debian package that cpack makes.
+# the library through pkg-config; and so does the Debian package that cpack makes. The commands are those of
+# docs/install.md, as they stand.
 . "$SOURCE_DIR/tests/support/regress.sh"
+. "$SOURCE_DIR/tests/support/page_blocks.sh"
 
 build=$(dirname -- "$POROGRAIN")
 cached() { sed -n "s/^$1:[^=]*=//p" "$build/CMakeCache.txt"; }
@@ -42,31 +44,42 @@ works() {
   rm -r elsewhere
 }
 
-"$cmake" --install "$build" --prefix "$WORK_DIR/first" >install.log
-mv first 'moved here'
-works "$WORK_DIR/moved here" "$WORK_DIR/first"
-mv 'moved here' prefix
+take_blocks docs/install.md
+export HOME=$WORK_DIR
+# The programs of this build, and a folder build that cpack may write to.
+mkdir programs build
+sanitize=$(cached POROGRAIN_SANITIZE)
+ln -s "$cmake" programs/cmake
+printf '#!/usr/bin/env bash\nexec %q -Wall -Werror %s "$@"\n' "$(cached MPI_C_COMPILER)" "${sanitize:+-fsanitize=$sanitize}" >programs/mpicc
+printf '#!/usr/bin/env bash\nexec %q "$@"\n' "$(dirname -- "$cmake")/cpack" >programs/cpack
+chmod +x programs/mpicc programs/cpack
+PATH=$WORK_DIR/programs:$PATH
+cp "$build"/{cmake_install.cmake,CPackConfig.cmake} build/
+
+run_block 1 >install.log
+mv porograin 'moved here'
+works "$WORK_DIR/moved here" "$WORK_DIR/porograin"
+mv 'moved here' porograin
 
 # The ten lines of docs/install.md, compiled as it says.
 awk '/^```c$/ { inside = 1; next } /^```/ { inside = 0 } inside' "$SOURCE_DIR/docs/install.md" >onestep.c
 [ -s onestep.c ] || fail 'docs/install.md has no program in C'
-pc=$(find prefix -name porograin.pc)
-export PKG_CONFIG_PATH=$WORK_DIR/${pc%/*}:${PKG_CONFIG_PATH:-}
+export PKG_CONFIG_PATH=${PKG_CONFIG_PATH:-}
 [ -z "${PETSC_DIR:-}" ] || PKG_CONFIG_PATH=$PKG_CONFIG_PATH:$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig
-[ "$(pkg-config --modversion porograin)" = "$version" ] || fail 'version of porograin.pc'
-[ -s "$(pkg-config --variable=options porograin)/panel_case1_ns.opts" ] || fail 'options of porograin.pc'
-sanitize=$(cached POROGRAIN_SANITIZE)
-# shellcheck disable=SC2046
-$(cached MPI_C_COMPILER) -Wall -Werror ${sanitize:+-fsanitize=$sanitize} onestep.c -o onestep $(pkg-config --cflags --libs porograin)
-./onestep -case panel -panel_columns 5 -dem_local_damping 0.7 >onestep.log
+(
+  PKG_CONFIG_PATH=$(dirname "$(find "$WORK_DIR/porograin" -name porograin.pc)"):$PKG_CONFIG_PATH
+  [ "$(pkg-config --modversion porograin)" = "$version" ] || fail 'version of porograin.pc'
+  [ -s "$(pkg-config --variable=options porograin)/panel_case1_ns.opts" ] || fail 'options of porograin.pc'
+)
+run_block 3 >onestep.log
 expect_match '^porograin .*: case panel, 49 discs' onestep.log
 
 # The package.
 command -v dpkg-shlibdeps >/dev/null && command -v dpkg-deb >/dev/null || skip 'no dpkg-shlibdeps (Debian: dpkg-dev): the package is not tested'
-"$(dirname -- "$cmake")/cpack" -G DEB --config "$build/CPackConfig.cmake" -B "$WORK_DIR/package" >cpack.log 2>&1 ||
-  { tail -n 20 cpack.log >&2; fail 'cpack'; }
-deb=$(echo package/porograin_"$version"_*.deb)
-[ -s "$deb" ] || fail "no package: $(ls package)"
+run_block 2 >cpack.log 2>&1 || { tail -n 20 cpack.log >&2; fail 'cpack'; }
+no_block_left
+deb=$(echo build/porograin_"$version"_*.deb)
+[ -s "$deb" ] || fail "no package: $(ls build)"
 depends=$(dpkg-deb -f "$deb" Depends)
 for library in libc6 libpetsc libhdf5 libopenmpi; do
   # an own PETSc comes with its own libraries

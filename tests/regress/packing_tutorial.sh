@@ -2,36 +2,31 @@
 # The commands of docs/packings.md do what the page says: every block of shell and Python is run as it stands, and what
 # it prints is compared with what the page shows.
 . "$SOURCE_DIR/tests/support/regress.sh"
+. "$SOURCE_DIR/tests/support/page_blocks.sh"
 
 page=$SOURCE_DIR/docs/packings.md
 mkdir build
 ln -s "$POROGRAIN" build/porograin
 
-# Blocks of a language into files block.1, block.2, ...
-blocks() {
-  awk -v language="$1" -v name="$2" '
-    /^```/ { if (inside) { inside = 0; close(file) } else if ($0 == "```" language) { inside = 1; file = name "." ++n } else inside = skip = !skip
-             if (skip) inside = 0
-             next }
-    inside { print > file }' "$page"
-}
-blocks python python
-blocks sh shell
-[ -s python.1 ] || fail 'no Python block in the tutorial'
-[ -s shell.5 ] && [ ! -e shell.6 ] || fail 'the tutorial has not 5 blocks of shell'
-head -n 1 python.1 | grep -q '^# heap.py' || fail 'the Python block is not heap.py'
-if command -v python3 >/dev/null; then
-  mv python.1 heap.py
-else
+take_blocks docs/packings.md
+if ! command -v python3 >/dev/null; then
   echo 'no python3: heap.csv is made by awk'
-  sed -i '/^python3 /d' shell.1
-  awk 'BEGIN { print "x,y,r"; for (row = 0; row < 8; row++) for (c = 0; c < 20; c++) {
-    r = (row + c) % 3 ? 0.004 : 0.005; x = 0.0055 + 0.0105 * c + (row % 2 ? 0.003 : 0)
-    print x "," 0.0055 + 0.0105 * row "," r } }' >heap.csv
+  mkdir programs
+  cat >programs/python3 <<'END'
+#!/usr/bin/env bash
+awk 'BEGIN { print "x,y,r"; for (row = 0; row < 8; row++) for (c = 0; c < 20; c++) {
+  r = (row + c) % 3 ? 0.004 : 0.005; x = 0.0055 + 0.0105 * c + (row % 2 ? 0.003 : 0)
+  print x "," 0.0055 + 0.0105 * row "," r } }' >heap.csv
+END
+  chmod +x programs/python3
+  PATH=$PWD/programs:$PATH
 fi
+run_block 1
+[ -s heap.py ] || fail 'the first block is not heap.py'
 for k in 1 2 3 4 5; do
-  bash -e "shell.$k" >"out.$k" 2>&1 || { cat "out.$k" >&2; fail "block $k of the tutorial"; }
+  run_block $((k + 1)) >"out.$k" 2>&1 || { cat "out.$k" >&2; fail "block $((k + 1)) of the tutorial"; }
 done
+no_block_left
 
 # shown FILE LINE...: the page shows the line, and the program printed it (seconds aside)
 shown() {
