@@ -17,10 +17,7 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   const PgColumn1d initial = {{.columns = 8, .rows = 25, .radius = 5e-3, .porosity = -1.0}, 1e4, NAN, 0.07};
 
   PetscFunctionBeginUser;
-  PetscCall(PgColumnCreate(comm,
-                           "-fluid darcy -permeability 6.5e-10 -dt 5e-6 -fluid_every 10 -coupling drag_and_pressure "
-                           "-bc_bottom impermeable -bc_top drained -bc_top_pressure 100000",
-                           &initial, context));
+  PetscCall(PgColumnCreate(comm, PG_COLUMN_LOADED, &initial, context));
   PetscFunctionReturn(0);
 }
 
