@@ -67,6 +67,9 @@ PETSC_EXTERN PetscErrorCode PgSetCause(PetscErrorCode (*find)(void *context, cha
 PETSC_EXTERN PetscErrorCode PgInitialize(int *argc, char ***argv, const char about[]);
 /* Refuses an argument that belongs to no option, which PETSc would pass over in silence. Collective. */
 PETSC_EXTERN PetscErrorCode PgRefuseStrayArguments(int argc, char *argv[]);
+/* Why `file` cannot be read, seen before it is opened (a pipe would wait for ever), NULL: nothing speaks against it; its
+   size in bytes, which may be NULL. The answer lasts until the next call of strerror(). Not collective. */
+PETSC_EXTERN const char *PgWhyNotFile(const char file[], PetscInt64 *size);
 /* Where `name`, a file that comes with the program ("options/solvers/all.txt"), is: there, seen from the present
    folder, or else beside the program as it was installed or built. `name` itself when it is nowhere. Collective. */
 PETSC_EXTERN PetscErrorCode PgShippedFile(MPI_Comm comm, const char name[], char file[], size_t size);

@@ -176,12 +176,11 @@ static PetscBool Name(const char given[], PetscBool yaml, char file[PETSC_MAX_PA
 /* Opens a file that can be read twice, here and by PETSc, and to its end; NULL or why not. */
 static const char *WhyNotOpened(const char file[], FILE **in)
 {
-  struct stat found;
+  PetscInt64  size;
+  const char *reason = PgWhyNotFile(file, &size);
 
-  if (stat(file, &found)) return strerror(errno);
-  if (S_ISDIR(found.st_mode)) return strerror(EISDIR);
-  if (!S_ISREG(found.st_mode)) return "it is not a regular file";
-  if (found.st_size > LARGEST) return "it is larger than a megabyte: this is no file of options";
+  if (reason) return reason;
+  if (size > LARGEST) return "it is larger than a megabyte: this is no file of options";
   *in = fopen(file, "r");
   return *in ? NULL : strerror(errno);
 }

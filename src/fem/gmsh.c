@@ -26,18 +26,21 @@ static PetscBool ReadGroup(const char line[], PgFemGroup *group)
   return PETSC_TRUE;
 }
 
-/* Rank 0: the names of the file; reason stays empty when all went well. */
-static PetscErrorCode ReadGroups(const char file[], PetscInt *groups, PgFemGroup **group, char reason[REASON])
+/* Rank 0: the names of the file; reason stays empty when all went well, *opened tells a file that is bad from none. */
+static PetscErrorCode ReadGroups(const char file[], PetscInt *groups, PgFemGroup **group, char reason[REASON],
+                                 PetscBool *opened)
 {
-  char  line[LINE];
-  FILE *stream = fopen(file, "rb");
-  long  said   = 0;
+  char        line[LINE];
+  const char *why    = PgWhyNotFile(file, NULL);
+  FILE       *stream = why ? NULL : fopen(file, "rb");
+  long        said   = 0;
 
   PetscFunctionBeginUser;
   *groups = 0;
   *group  = NULL;
+  *opened = (PetscBool)(stream != NULL);
   if (!stream) {
-    (void)snprintf(reason, REASON, "%s", strerror(errno));
+    (void)snprintf(reason, REASON, "%s", why ? why : strerror(errno));
     PetscFunctionReturn(0);
   }
   if (!fgets(line, sizeof line, stream) || strncmp(line, "$MeshFormat", 11) != 0)
@@ -112,13 +115,14 @@ static PetscErrorCode Try(const char file[], char reason[REASON])
 PetscErrorCode PgFemGmshRead(MPI_Comm comm, const char file[], DM *dm, PetscInt *groups, PgFemGroup **group)
 {
   char        reason[REASON] = "";
+  PetscBool   opened         = PETSC_TRUE;
   PetscMPIInt rank;
 
   PetscFunctionBeginUser;
   *groups = 0;
   *group  = NULL;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) PetscCall(ReadGroups(file, groups, group, reason));
+  if (rank == 0) PetscCall(ReadGroups(file, groups, group, reason, &opened));
   if (rank == 0 && !reason[0]) {
     PgFemGmsh mesh;
     PetscCall(PgFemGmshScan(file, &mesh, reason, sizeof reason));
@@ -127,10 +131,12 @@ PetscErrorCode PgFemGmshRead(MPI_Comm comm, const char file[], DM *dm, PetscInt 
   }
   if (rank == 0 && !reason[0]) PetscCall(Try(file, reason));
   PetscCallMPI(MPI_Bcast(reason, REASON, MPI_CHAR, 0, comm));
+  PetscCallMPI(MPI_Bcast(&opened, 1, MPIU_BOOL, 0, comm));
   PetscCallMPI(MPI_Bcast(groups, 1, MPIU_INT, 0, comm));
   if (reason[0]) {
     PetscCall(PetscFree(*group));
-    PgInputError(comm, "mesh file '%s': %s", file, reason);
+    PetscCall(PgReport(comm, "mesh file '%s': %s", file, reason));
+    return opened ? PETSC_ERR_USER_INPUT : PETSC_ERR_FILE_OPEN;
   }
   if (rank) PetscCall(PetscMalloc1(*groups, group));
   PetscCallMPI(MPI_Bcast(*group, (PetscMPIInt)(*groups * (PetscInt)sizeof **group), MPI_BYTE, 0, comm));

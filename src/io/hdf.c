@@ -46,6 +46,8 @@ hid_t PgHdfWatch(PgHdf *hdf, const char action[], const char object[], hid_t res
   /* HDF5 puts the time of day with a line feed into some messages. */
   for (char *c = reason; *c; c++)
     if (*c == '\n' || *c == '\r') *c = ' ';
+  if (!strcmp(reason, "file signature not found"))
+    (void)snprintf(reason, sizeof reason, "it is not a file of HDF5, or its beginning is damaged");
   PgHdfFail(hdf, action, object, reason[0] ? reason : "HDF5 gives no reason");
   return result;
 }
@@ -72,8 +74,14 @@ typedef enum { CREATE, CHANGE, READ } Purpose;
 
 static void OpenHere(const char file[], Purpose purpose, H5F_libver_t oldest, PgHdf *hdf)
 {
-  const hid_t access = PgHdfWatch(hdf, "prepare the access", "", PgDiskAccess(&hdf->disk));
+  const char *reason = purpose == READ ? PgWhyNotFile(file, NULL) : NULL;
+  hid_t       access;
 
+  if (reason) {
+    PgHdfFail(hdf, "open the file", "", reason);
+    return;
+  }
+  access = PgHdfWatch(hdf, "prepare the access", "", PgDiskAccess(&hdf->disk));
   if (access < 0) return;
   PgHdfWatch(hdf, "set the format", "", H5Pset_libver_bounds(access, oldest, H5F_LIBVER_LATEST));
   if (!hdf->failed && purpose == CREATE)

@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
-#include <sys/stat.h>
 
 void PgPackingSourceFail(PgPackingSource *source, PetscErrorCode code, const char format[], ...)
 {
@@ -73,22 +72,20 @@ static PetscErrorCode Open(PgPackingSource *source, const char group[])
 {
   static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
   unsigned char              head[8]      = {0};
-  struct stat                found;
+  PetscInt64                 size;
+  const char                *reason = PgWhyNotFile(source->file, &size);
   FILE                      *stream;
   PetscBool                  hdf = PETSC_FALSE;
 
   PetscFunctionBeginUser;
-  if (stat(source->file, &found)) {
-    PgPackingSourceFail(source, PETSC_ERR_FILE_OPEN, "cannot be opened: %s", strerror(errno));
-  } else if (!S_ISREG(found.st_mode)) {
-    PgPackingSourceFail(source, PETSC_ERR_FILE_OPEN, "cannot be opened: %s",
-                        S_ISDIR(found.st_mode) ? strerror(EISDIR) : "it is not a regular file");
+  if (reason) {
+    PgPackingSourceFail(source, PETSC_ERR_FILE_OPEN, "cannot be opened: %s", reason);
   } else if (!(stream = fopen(source->file, "rb"))) {
     PgPackingSourceFail(source, PETSC_ERR_FILE_OPEN, "cannot be opened: %s", strerror(errno));
   } else {
     hdf = (PetscBool)(fread(head, 1, sizeof head, stream) == sizeof head && !memcmp(head, signature, sizeof head));
     (void)fclose(stream);
-    if (found.st_size == 0)
+    if (size == 0)
       PgPackingSourceFail(source, PETSC_ERR_USER_INPUT, "it is empty");
     else if (!hdf && (EndsIn(source->file, ".h5") || EndsIn(source->file, ".hdf5")))
       PgPackingSourceFail(source, PETSC_ERR_FILE_UNEXPECTED,

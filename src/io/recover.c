@@ -31,6 +31,9 @@ static PetscErrorCode CountSnapshots(MPI_Comm comm, const char file[], PetscInt 
   if (rank == 0) {
     H5G_info_t info;
 
+    if (!PgHdfWatch(&hdf, "look for", "/snapshots", H5Lexists(hdf.id, "/snapshots", H5P_DEFAULT)))
+      PgHdfFail(&hdf, "count snapshots", "",
+                "it has no group /snapshots: a checkpoint, a packing, or another file of HDF5");
     for (; !hdf.failed; (*count)++) {
       (void)snprintf(path, sizeof path, "/snapshots/%06lld", (long long)*count);
       if (PgHdfWatch(&hdf, "look for", path, H5Lexists(hdf.id, path, H5P_DEFAULT)) <= 0) break;

@@ -12,6 +12,7 @@
 /* HDF5 prints pages of its own about what is not there; negative when the file cannot be opened. */
 static hid_t OpenQuietly(const char file[])
 {
+  if (PgWhyNotFile(file, NULL)) return H5I_INVALID_HID;
   (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   return H5Fopen(file, H5F_ACC_RDONLY, H5P_DEFAULT);
 }

@@ -12,7 +12,6 @@
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 
 enum { PIECE = 1 << 13 }; /* numbers read at a time */
 
@@ -201,15 +200,12 @@ static void TakeVector(Dump *d, const char part[])
 void PgDumpFileCheck(const char file[], char reason[], size_t length)
 {
   Dump        d = {.reason = reason, .reason_length = length};
-  struct stat found;
+  PetscInt64  size;
+  const char *why = PgWhyNotFile(file, &size);
 
   reason[0] = 0;
-  if (stat(file, &found)) {
-    (void)snprintf(reason, length, "%s", strerror(errno));
-    return;
-  }
-  if (!S_ISREG(found.st_mode)) {
-    (void)snprintf(reason, length, "%s", S_ISDIR(found.st_mode) ? strerror(EISDIR) : "it is not a regular file");
+  if (why) {
+    (void)snprintf(reason, length, "%s", why);
     return;
   }
   d.stream = fopen(file, "rb");
@@ -217,7 +213,7 @@ void PgDumpFileCheck(const char file[], char reason[], size_t length)
     (void)snprintf(reason, length, "%s", strerror(errno));
     return;
   }
-  d.left = (uint64_t)found.st_size;
+  d.left = (uint64_t)size;
   TakeMatrix(&d);
   TakeVector(&d, "right-hand side");
   TakeVector(&d, "solution");

@@ -2,12 +2,14 @@
    that the solvers inside it (of blocks, of levels) find their options too and PETSc can say which were read. */
 #include "studyimpl.h"
 #include <ctype.h>
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 /* The whole file on every rank; to be freed. */
 static PetscErrorCode ReadFile(MPI_Comm comm, const char file[], char **text)
 {
+  const char *why  = NULL;
   PetscMPIInt rank;
   long        size = -1;
   FILE       *in   = NULL;
@@ -15,14 +17,16 @@ static PetscErrorCode ReadFile(MPI_Comm comm, const char file[], char **text)
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   if (rank == 0) {
-    in = fopen(file, "r");
+    why = PgWhyNotFile(file, NULL);
+    in  = why ? NULL : fopen(file, "r");
+    if (!in && !why) why = strerror(errno);
     if (in && !fseek(in, 0, SEEK_END)) size = ftell(in);
     if (size >= 0) rewind(in);
   }
   PetscCallMPI(MPI_Bcast(&size, 1, MPI_LONG, 0, comm));
   if (size < 0 || size > 1000000) {
     if (in) (void)fclose(in);
-    PetscCall(PgReport(comm, "option -study_solvers: cannot read %s", file));
+    PetscCall(PgReport(comm, "option -study_solvers: cannot read %s: %s", file, why ? why : "it is too long for a list"));
     return PETSC_ERR_FILE_OPEN;
   }
   PetscCall(PetscCalloc1((size_t)size + 1, text));

@@ -48,9 +48,8 @@ begin plates 1 1e-3 -case packing -packing_generate random -packing_count 100 -p
   -packing_top_velocity -0.05 -dt 2e-6 -fluid ns -fluid_every 5 -sph_gradient corrected
 together
 
-# All cases but packing, which is above under other names, those without steps, the continuum (up_restart.sh), and those that have
-# no checkpoints (docs/reliability.md) have
-# been here.
+# All cases but packing, which is above under other names, those without steps, the continuum (up_restart.sh), and those that
+# have no checkpoints (docs/reliability.md) have been here.
 "$POROGRAIN" -help markdown >help.txt
 cases=$(sed -n 's/^| `-case` |[^|]*|[^|]*| \([^|]*\) |.*$/\1/p' help.txt | tr -d ' ' | tr ',' '\n')
 [ "$(echo "$cases" | wc -l)" -ge 16 ] || { grep -e -case help.txt >&2; fail "cases of -help: $cases"; }

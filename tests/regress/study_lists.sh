@@ -48,7 +48,9 @@ try 4 'cannot write nowhere/x.h5' -study_output nowhere/x
 try 2 "'x' is not a whole number" -study_sizes 200,x
 expect_error 4 "'x.petsc': No such file" "$POROGRAIN_STUDY" -study_load x.petsc -study_solvers list.txt
 expect_error 4 "'list.txt': it is not a system .*matrix: it does not begin like" "$POROGRAIN_STUDY" -study_load list.txt -study_solvers list.txt
-expect_error 4 'cannot read none.txt' "$POROGRAIN_STUDY" -study_solvers none.txt
+expect_error 4 'cannot read none.txt: No such file or directory' "$POROGRAIN_STUDY" -study_solvers none.txt
+mkfifo pipe.txt # into which nobody writes
+expect_error 4 'cannot read pipe.txt: it is not a regular file' timeout 60 "$POROGRAIN_STUDY" -study_solvers pipe.txt
 expect_error 2 "'solver' is not one of .*did you mean 'solvers'" "$POROGRAIN_STUDY" -study solver
 expect_error 0 '-study_mms_levels' "$POROGRAIN_STUDY" -help study
 [ "$(find . -name '*.csv' -o -name '*.h5')" = '' ] || fail 'files were written in spite of an error'

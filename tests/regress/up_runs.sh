@@ -115,23 +115,24 @@ mesh top '0.35 0.55' >good.msh
 beside simulate gmsh 2 -case up_terzaghi -up_mesh good.msh -up_permeability 0
 
 # ---- what is wrong, by name ----
-# refused RANKS PATTERN options...: in a folder of its own, with all meshes
+# refused STATUS RANKS PATTERN options...: in a folder of its own, with all meshes
 refused() {
-  local n=$1 pattern=$2
-  shift 2
+  local status=$1 n=$2 pattern=$3
+  shift 3
   cp ../*.msh .
-  expect_error 2 "^porograin: error: .*$pattern" run "$n" "$POROGRAIN" "$@" -output bad.h5
+  expect_error "$status" "^porograin: error: .*$pattern" run "$n" "$POROGRAIN" "$@" -output bad.h5
   [ "$(grep -c 'porograin: error' expect_error.out)" -eq 1 ] || { cat expect_error.out >&2; fail "not one message: $*"; }
   if compgen -G 'bad.*' >/dev/null; then fail "written in spite of: $*"; fi
 }
-# bad PATTERN options...: status 2 and one message, on $ranks; nothing written
+# bad PATTERN options...: $status and one message, on $ranks; nothing written
 tried=0
 bad() {
   local n
   tried=$((tried + 1))
-  for n in $ranks; do beside within "bad$tried-$n" refused "$n" "$@"; done
+  for n in $ranks; do beside within "bad$tried-$n" refused "$status" "$n" "$@"; done
 }
 ranks='1'
+status=2
 bad "Poisson's ratio is 0.5, it must be > -1 and < 0.5" -case up_footing -up_poisson 0.5
 bad 'option -up_poisson: 0.6 is out of range' -case up_footing -up_poisson 0.6
 bad 'option -up_permeability: -1e-12 m2 is out of range' -case up_footing -up_permeability -1e-12
@@ -145,7 +146,9 @@ bad 'option -up_mandel_force 1 is not read in this run, it needs -case up_mandel
 bad 'option -wall_time 5 is of no use to this case' -case up_terzaghi -wall_time 5
 bad "option -up_pc_type: 'fieldsplitt' is not one of" -case up_terzaghi -up_pc_type fieldsplitt
 ranks='1 2'
+status=4
 bad "mesh file 'no.msh': No such file" -case up_terzaghi -up_mesh no.msh
+status=2
 bad 'options -up_mesh and -up_cells contradict' -case up_terzaghi -up_mesh good.msh -up_cells 2,3
 echo 'x,y,r' >text.msh
 bad "mesh file 'text.msh': it does not begin with .MeshFormat" -case up_terzaghi -up_mesh text.msh

@@ -252,7 +252,7 @@ static void what_cannot_be_read(void **state)
   ok(PgOutputCreate(particles, file, 1, column, &output));
   ok(PgOutputSnapshot(output, 0.5, 0, NULL));
   CheckUnreadable("io_test_nowhere.h5", "/snapshots/000000/id", PETSC_ERR_FILE_OPEN, "No such file or directory");
-  CheckUnreadable(FileName("read", ".csv"), "/snapshots/000000/id", PETSC_ERR_FILE_OPEN, "file signature not found");
+  CheckUnreadable(FileName("read", ".csv"), "/snapshots/000000/id", PETSC_ERR_FILE_OPEN, "it is not a file of HDF5");
   CheckUnreadable(file, "/snapshots/000007/id", PETSC_ERR_FILE_READ, "/snapshots/000007/id");
   CheckUnreadable(file, "/snapshots/000000", PETSC_ERR_FILE_READ, "dataset '/snapshots/000000'");
   CatchErrors();
