@@ -9,7 +9,7 @@
 /* The whole file on every rank; to be freed. */
 static PetscErrorCode ReadFile(MPI_Comm comm, const char file[], char **text)
 {
-  const char *why  = NULL;
+  const char *why = NULL;
   PetscMPIInt rank;
   long        size = -1;
   FILE       *in   = NULL;
@@ -26,7 +26,8 @@ static PetscErrorCode ReadFile(MPI_Comm comm, const char file[], char **text)
   PetscCallMPI(MPI_Bcast(&size, 1, MPI_LONG, 0, comm));
   if (size < 0 || size > 1000000) {
     if (in) (void)fclose(in);
-    PetscCall(PgReport(comm, "option -study_solvers: cannot read %s: %s", file, why ? why : "it is too long for a list"));
+    PetscCall(
+        PgReport(comm, "option -study_solvers: cannot read %s: %s", file, why ? why : "it is too long for a list"));
     return PETSC_ERR_FILE_OPEN;
   }
   PetscCall(PetscCalloc1((size_t)size + 1, text));
