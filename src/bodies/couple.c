@@ -7,7 +7,7 @@ PetscErrorCode PgBodiesEmbed(PgBodies bodies, PetscInt body, PetscInt count, con
 
   PetscFunctionBeginUser;
   if (b->particles + count > b->room) {
-    b->room = b->particles + count;
+    b->room = PetscMax(b->particles + count, 2 * b->room); /* particles may come one by one */
     PetscCall(PetscRealloc((size_t)b->room * sizeof *b->in, &b->in));
     PetscCall(PetscRealloc((size_t)b->room * 4 * sizeof *b->N, &b->N));
   }

@@ -58,6 +58,7 @@ static void Straining(PgBody *b)
     b->a[2 * i + 1] = (b->force[2 * i + 1] + b->load[2 * i + 1]) / b->m[i] - push[1] - turn / inertia * x;
   }
 }
+
 /* v += h a of what acts from outside, in a step of dt; damping by its exact factor over h. */
 static void KickOutside(PgBodies bodies, PgBody *b, PetscReal h, PetscReal dt)
 {

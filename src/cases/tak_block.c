@@ -8,27 +8,13 @@
    Choices   sizes and shapes are not in the paper: zones of 18 spacings square, bodies of squares of 4 spacings. What is
              embedded in the sides of zones 1 and 2 reaches beyond the channel, so that the corners of the liquid lean on
              the zones and not on the channel. */
-#include "tak.h"
-#include <math.h>
+#include "tak_zone.h"
 
-enum { SIDE = 18, LAYERS = 3, ZONES = 2, BODIES = 3 };
-
-/* One of zones 1 and 2, and its side at the liquid. Arrays of the side are the same on all ranks. */
-typedef struct {
-  PgFem      fem;
-  PetscReal  at;             /* x of the side [m] */
-  PetscInt   count;          /* pieces of the side */
-  PetscInt  *local;          /* (count + 1) node of this rank, if it owns it, or -1 */
-  PetscReal *u0, *u1, *v;    /* (count + 1, 2) before and after the present step of the zone [m], [m/s] */
-  PetscReal *force, *nodal;  /* (count + 1, 2), (nodes of this rank, 2) [N/m] */
-  PetscReal *X, total[2];    /* (particles, 2) [m]; force on the side [N/m] */
-  PetscReal *particle_force; /* (particles, 2) [N/m] */
-  PetscInt   particles;
-} Zone;
+enum { SIDE = 18, LAYERS = PG_TAK_ZONE_LAYERS, ZONES = 2, BODIES = 3 };
 
 typedef struct {
   PgTak     tak;
-  Zone      zone[ZONES];
+  PgTakZone zone[ZONES];
   PgSolves  solves;     /* of the zones */
   PetscReal traction;   /* [Pa] */
   PetscReal E, nu, rho; /* of the bodies */
@@ -124,11 +110,18 @@ static PetscErrorCode Create(MPI_Comm comm, void **context)
   for (PetscInt k = 0; k < ZONES; k++) {
     const PetscReal L = SIDE * b->tak.dx, low[2] = {k ? 2 * L : 0, 0}, high[2] = {low[0] + L, L};
 
-    PetscCall(PgFemCreate(comm, &b->zone[k].fem));
-    PetscCall(PgFemSetBox(b->zone[k].fem, b->cells, low, high));
-    PetscCall(PgFemSetFromOptions(b->zone[k].fem));
+    PgTakZone *z = &b->zone[k];
+
+    z->comm  = comm;
+    z->body  = BODIES + k;
+    z->left  = (PetscBool)k;
+    z->at    = k ? low[0] : high[0];
+    z->L     = L;
+    z->count = b->cells[1];
+    PetscCall(PgFemCreate(comm, &z->fem));
+    PetscCall(PgFemSetBox(z->fem, b->cells, low, high));
+    PetscCall(PgFemSetFromOptions(z->fem));
     PetscCall(Conditions(b, k));
-    b->zone[k].at = k ? low[0] : high[0];
   }
   PetscFunctionReturn(0);
 }
@@ -139,65 +132,13 @@ static PetscErrorCode Destroy(void **context)
 
   PetscFunctionBeginUser;
   if (!b) PetscFunctionReturn(0);
-  for (PetscInt k = 0; k < ZONES; k++) {
-    Zone *z = &b->zone[k];
-    PetscCall(PgFemDestroy(&z->fem));
-    PetscCall(PetscFree5(z->local, z->u0, z->u1, z->v, z->force));
-    PetscCall(PetscFree3(z->nodal, z->X, z->particle_force));
-  }
+  for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgTakZoneDestroy(&b->zone[k]));
   PetscCall(PgTakDestroy(&b->tak));
   PetscCall(PetscFree(*context));
   PetscFunctionReturn(0);
 }
 
 /* ---- set-up ---- */
-
-/* Nodes of the side and its particles: LAYERS columns inside of the zone, as many rows beyond the channel on each side. */
-static PetscErrorCode SetUpZone(Block *b, PetscInt k)
-{
-  Zone           *z  = &b->zone[k];
-  const PetscReal dx = b->tak.dx, L = SIDE * dx;
-  const PetscInt  beyond = b->corners ? LAYERS : 0, rows = SIDE + 2 * beyond;
-  PgFemNodes      nodes;
-
-  PetscFunctionBeginUser;
-  PetscCall(PgFemSetUp(z->fem));
-  PetscCall(PgFemGetNodes(z->fem, &nodes));
-  z->count     = b->cells[1];
-  z->particles = LAYERS * rows;
-  PetscCall(PetscCalloc5(z->count + 1, &z->local, 2 * (z->count + 1), &z->u0, 2 * (z->count + 1), &z->u1,
-                         2 * (z->count + 1), &z->v, 2 * (z->count + 1), &z->force));
-  PetscCall(PetscCalloc3(2 * nodes.count, &z->nodal, 2 * z->particles, &z->X, 2 * z->particles, &z->particle_force));
-  for (PetscInt j = 0; j <= z->count; j++) z->local[j] = -1;
-  for (PetscInt i = 0; i < nodes.count; i++)
-    if (nodes.owned[i] && PetscAbsReal(nodes.x[2 * i] - z->at) < 1e-6 * dx)
-      z->local[(PetscInt)(nodes.x[2 * i + 1] / L * (PetscReal)z->count + 0.5)] = i;
-  for (PetscInt c = 0; c < LAYERS; c++)
-    for (PetscInt r = 0; r < rows; r++) {
-      PetscReal *X = &z->X[2 * (c * rows + r)];
-      X[0]         = z->at + (k ? 1 : -1) * ((PetscReal)c + 0.5) * dx;
-      X[1]         = ((PetscReal)(r - beyond) + 0.5) * dx;
-    }
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode AddZoneParticles(Block *b, PetscInt k)
-{
-  const Zone      *z = &b->zone[k];
-  PgWcsphParticle *p;
-
-  PetscFunctionBeginUser;
-  PetscCall(PetscCalloc1(z->particles, &p));
-  for (PetscInt i = 0; i < z->particles; i++) {
-    p[i].kind  = PG_WCSPH_BODY;
-    p[i].body  = BODIES + k;
-    p[i].index = i;
-    PetscCall(PetscArraycpy(p[i].x, &z->X[2 * i], 2));
-  }
-  PetscCall(PgWcsphAddParticles(b->tak.wcsph, z->particles, p));
-  PetscCall(PetscFree(p));
-  PetscFunctionReturn(0);
-}
 
 /* Lower left corners and sizes of the bodies in spacings, each of squares of 4. */
 static PetscErrorCode AddBodies(Block *b)
@@ -217,15 +158,6 @@ static PetscErrorCode AddBodies(Block *b)
   PetscFunctionReturn(0);
 }
 
-/* Displacement of the side at a height, or velocity: linear between the nodes, constant beyond. */
-static void AtHeight(const Zone *z, PetscReal L, PetscReal y, PetscInt *j, PetscReal *part)
-{
-  const PetscReal s = PetscMin(PetscMax(y / L, 0.0), 1.0) * (PetscReal)z->count;
-
-  *j    = PetscMin((PetscInt)s, z->count - 1);
-  *part = s - (PetscReal)*j;
-}
-
 static PetscErrorCode Motion(void *context, PetscInt count, const PetscInt body[], const PetscInt index[],
                              PetscReal x[], PetscReal v[])
 {
@@ -235,19 +167,8 @@ static PetscErrorCode Motion(void *context, PetscInt count, const PetscInt body[
   PetscFunctionBeginUser;
   PetscCall(PgBodiesMotion(b->tak.bodies, count, body, index, x, v));
   for (PetscInt n = 0; n < count; n++) {
-    const Zone *z;
-    PetscInt    j;
-    PetscReal   part;
-
     if (body[n] < BODIES) continue;
-    z = &b->zone[body[n] - BODIES];
-    AtHeight(z, SIDE * b->tak.dx, z->X[2 * index[n] + 1], &j, &part);
-    for (int d = 0; d < 2; d++) {
-      const PetscReal before = (1 - part) * z->u0[2 * j + d] + part * z->u0[2 * j + 2 + d];
-      const PetscReal after  = (1 - part) * z->u1[2 * j + d] + part * z->u1[2 * j + 2 + d];
-      x[2 * n + d]           = z->X[2 * index[n] + d] + before + done * (after - before);
-      v[2 * n + d]           = (1 - part) * z->v[2 * j + d] + part * z->v[2 * j + 2 + d];
-    }
+    PgTakZoneMove(&b->zone[body[n] - BODIES], index[n], done, &x[2 * n], &v[2 * n]);
   }
   PetscFunctionReturn(0);
 }
@@ -260,35 +181,7 @@ static PetscErrorCode TakeForces(Block *b)
 
   PetscFunctionBeginUser;
   PetscCall(PgWcsphGetSolids(b->tak.wcsph, PG_WCSPH_BODY, &solids));
-  for (PetscInt k = 0; k < ZONES; k++) {
-    Zone      *z = &b->zone[k];
-    PgFemNodes nodes;
-
-    PetscCall(PetscArrayzero(z->particle_force, 2 * z->particles));
-    for (PetscInt n = 0; n < solids.count; n++)
-      if (solids.body[n] == BODIES + k)
-        PetscCall(PetscArraycpy(&z->particle_force[2 * solids.index[n]], &solids.force[2 * n], 2));
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, z->particle_force, (PetscMPIInt)(2 * z->particles), MPIU_REAL, MPI_SUM,
-                               b->tak.comm));
-    PetscCall(PetscArrayzero(z->force, 2 * (z->count + 1)));
-    z->total[0] = z->total[1] = 0.0;
-    for (PetscInt i = 0; i < z->particles; i++) {
-      PetscInt  j;
-      PetscReal part;
-      AtHeight(z, SIDE * b->tak.dx, z->X[2 * i + 1], &j, &part);
-      for (int d = 0; d < 2; d++) {
-        const PetscReal F = z->particle_force[2 * i + d];
-        z->force[2 * j + d] += (1 - part) * F;
-        z->force[2 * j + 2 + d] += part * F;
-        z->total[d] += F;
-      }
-    }
-    PetscCall(PgFemGetNodes(z->fem, &nodes));
-    PetscCall(PetscArrayzero(z->nodal, 2 * nodes.count));
-    for (PetscInt j = 0; j <= z->count; j++)
-      if (z->local[j] >= 0) PetscCall(PetscArraycpy(&z->nodal[2 * z->local[j]], &z->force[2 * j], 2));
-    PetscCall(PgFemSetNodalForces(z->fem, z->nodal));
-  }
+  for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgTakZoneTakeForces(&b->zone[k], &solids));
   PetscFunctionReturn(0);
 }
 
@@ -297,23 +190,7 @@ static PetscErrorCode StepZones(Block *b)
   const PetscReal dt = b->tak.run.dt * (PetscReal)b->every;
 
   PetscFunctionBeginUser;
-  for (PetscInt k = 0; k < ZONES; k++) {
-    Zone          *z = &b->zone[k];
-    const PetscInt n = 2 * (z->count + 1);
-    PgFemNodes     nodes;
-    PgFemStats     stats;
-
-    PetscCall(PgFemStep(z->fem, dt));
-    PetscCall(PgFemGetStats(z->fem, &stats));
-    PgSolvesAdd(&b->solves, stats.iterations);
-    PetscCall(PgFemGetNodes(z->fem, &nodes));
-    PetscCall(PetscArraycpy(z->u0, z->u1, n));
-    PetscCall(PetscArrayzero(z->u1, n));
-    for (PetscInt j = 0; j <= z->count; j++)
-      if (z->local[j] >= 0) PetscCall(PetscArraycpy(&z->u1[2 * j], &nodes.displacement[2 * z->local[j]], 2));
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, z->u1, (PetscMPIInt)n, MPIU_REAL, MPI_SUM, b->tak.comm));
-    for (PetscInt i = 0; i < n; i++) z->v[i] = (z->u1[i] - z->u0[i]) / dt;
-  }
+  for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgTakZoneStep(&b->zone[k], dt, &b->solves));
   b->sub = 0;
   PetscFunctionReturn(0);
 }
@@ -331,8 +208,8 @@ static PetscErrorCode Fill(Block *b)
   PetscCall(PgTakAddBlock(&b->tak, PG_WCSPH_WALL, 1, above, SIDE + 2 * more, LAYERS));
   PetscCall(PgBodiesJoin(b->tak.bodies, b->tak.wcsph));
   for (PetscInt k = 0; k < ZONES; k++) {
-    PetscCall(SetUpZone(b, k));
-    PetscCall(AddZoneParticles(b, k));
+    PetscCall(PgTakZoneSetUp(&b->zone[k], dx, SIDE, b->corners ? LAYERS : 0));
+    PetscCall(PgTakZoneAddParticles(&b->zone[k], b->tak.wcsph));
   }
   PetscCall(PgWcsphSetMotion(b->tak.wcsph, Motion, b));
   PetscCall(PgWcsphSetUp(b->tak.wcsph));
@@ -430,16 +307,14 @@ static PetscErrorCode FillRow(Block *b, PetscReal row[COLUMNS])
   }
   row[STRAIN] = 1.0 - area[1] / area[0];
   for (PetscInt k = 0; k < ZONES; k++) {
-    const Zone     *z = &b->zone[k];
-    const PetscReal L = SIDE * b->tak.dx, from = k ? 0.0 : 0.5 * L, done = (PetscReal)b->sub / (PetscReal)b->every;
-    PetscReal       pore[2], way = 0.0;
+    const PgTakZone *z    = &b->zone[k];
+    const PetscReal  from = k ? 0.0 : 0.5 * z->L;
+    PetscReal        pore[2];
 
     PetscCall(PgFemIntegrate(z->fem, 2, Pore, (void *)&from, pore));
-    for (PetscInt j = 0; j <= z->count; j++) /* trapezoidal over the side */
-      way += (j == 0 || j == z->count ? 0.5 : 1.0) * (z->u0[2 * j] + done * (z->u1[2 * j] - z->u0[2 * j]));
     row[PORE_1 + k]   = pore[0] / pore[1];
-    row[WAY_1 + k]    = way / (PetscReal)z->count;
-    row[STRESS_1 + k] = (k ? 1 : -1) * z->total[0] / L;
+    row[WAY_1 + k]    = PgTakZoneWay(z, (PetscReal)b->sub / (PetscReal)b->every);
+    row[STRESS_1 + k] = (k ? 1 : -1) * z->total[0] / z->L;
   }
   PetscFunctionReturn(0);
 }
