@@ -4,7 +4,8 @@
 
 PetscErrorCode PgWcsphKick(PgWcsph w, PetscReal dt)
 {
-  const PetscReal damping = w->time < w->damp_end ? w->damping : 0.0;
+  /* by its exact factor, which no rate makes unstable */
+  const PetscReal keep = PetscExpReal(w->time < w->damp_end ? -w->damping * dt : 0.0);
   PgWcsphArrays   f;
 
   PetscFunctionBeginUser;
@@ -13,7 +14,7 @@ PetscErrorCode PgWcsphKick(PgWcsph w, PetscReal dt)
   for (PetscInt a = 0; a < f.owned; a++) {
     if (!PgWcsphIsLiquid(&f, a)) continue;
     for (int d = 0; d < 2; d++)
-      f.v[2 * a + d] += dt * (f.force[2 * a + d] / f.m[a] + w->gravity[d] - damping * f.v[2 * a + d]);
+      f.v[2 * a + d] = keep * f.v[2 * a + d] + dt * (f.force[2 * a + d] / f.m[a] + w->gravity[d]);
   }
   PetscCall(PgStagePop());
   PetscFunctionReturn(0);
