@@ -161,6 +161,15 @@ static PetscErrorCode Refuse(MPI_Comm comm, const char name[], const char given[
   const char          *value = given ? given : "", *gap = given ? " " : "";
 
   PetscFunctionBeginUser;
+  if (name[0] == '-' || strchr(name, '=')) { /* as programs of GNU have them */
+    (*refused)++;
+    if (name[0] == '-')
+      PetscCall(PgReport(comm, "unknown option -%s%s%s; options begin with one '-', as in %s", name, gap, value, name));
+    else
+      PetscCall(PgReport(comm, "unknown option -%s%s%s; a blank, not '=', stands between an option and its value", name,
+                         gap, value));
+    PetscFunctionReturn(0);
+  }
   if (pattern && pattern->active && strchr(pattern->name, '*')) {
     PetscBool fine = PETSC_FALSE;
     PetscCall(OfFormerSolver(pattern, name, value, &fine));

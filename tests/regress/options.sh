@@ -169,6 +169,10 @@ messages=1
 row 2 'unknown option -pressure_pc_gamg_threshold 0.1: misspelt, or of a solver that this run does not use' \
   -fluid ns -pressure_pc_gamg_threshold 0.1
 
+# ---- as programs of GNU have them ----
+row 2 'unknown option --fluid ns; options begin with one .-., as in -fluid$' --fluid ns
+row 2 'unknown option -fluid=ns; a blank, not .=., stands between an option and its value$' -fluid=ns
+
 # ---- arguments that belong to no option ----
 row 2 "argument 'stray' belongs to no option" stray
 row 2 "argument '-9.81' belongs to no option: .* commas" -gravity 0 -9.81
@@ -185,7 +189,7 @@ printf -- '-fluid -dt 1e-6\n' >two.opts
 printf -- '-fluid ns\n-options_file nowhere.opts\n' >nested.opts
 mkdir folder.h5
 row 4 'options file.*nowhere\.opts' -options_file nowhere.opts
-row 4 "options file 'nowhere\.yaml': No such file" -options_file nowhere.yaml
+row 4 "options file 'nowhere\.yaml': No such file or directory$" -options_file nowhere.yaml
 row 4 "options file '.*folder\.h5': Is a directory" -options_file "$here/folder.h5"
 row 2 "options file '.*malformed\.opts', line 2: 'bc_left' is no option: options start with '-'" \
   -options_file "$here/malformed.opts"
