@@ -256,7 +256,7 @@ static PetscErrorCode PrintShort(MPI_Comm comm, const PgProgram *program)
   }
   PetscCall(PetscPrintf(
       comm,
-      "  %-10s every option\n  %-10s one option, or all whose names hold this word: -help dem_k\n"
+      "  %-10s every option\n  %-10s one option, or all whose names hold this word: -help %s\n"
       "  %-10s the table of all options in Markdown\n"
       "  %-10s PETSc's own help, with the solver options of this command line\n\n"
       "-version prints the versions of the program and of what it stands on.\n"
@@ -264,7 +264,7 @@ static PetscErrorCode PrintShort(MPI_Comm comm, const PgProgram *program)
       "given twice the last counts, and the command line counts more than PETSC_OPTIONS.\n"
       "Exit status: 0 done, 2 bad input, 3 the run failed, 4 trouble with a file, 5 ended early by a signal or\n"
       "-wall_time, 1 anything else.\n",
-      "all", "NAME", "markdown", "petsc"));
+      "all", "NAME", PgKnownFind("dem_k_n") ? "dem_k" : "plot_f", "markdown", "petsc"));
   PetscFunctionReturn(0);
 }
 

@@ -49,6 +49,13 @@ for option in case particles_balance neighbors_skin dem_k_n ns_theta sph_kernel 
   biaxial_stress; do
   expect_match "^  -$option( |\$)" all.txt
 done
+# The word that the short help gives as an example leads to options, of each program.
+for program in "$POROGRAIN" "$POROGRAIN_STUDY" "$POROGRAIN_PLOT"; do
+  "$program" -help >short.txt
+  word=$(sed -n 's/.* all whose names hold this word: -help //p' short.txt)
+  [ -n "$word" ] || fail "no example in the help of $program"
+  "$program" -help "$word" >word.txt || fail "-help $word of $program"
+done
 expect_error 2 "no section and no option 'dem_kn'; did you mean -dem_k_n\?" "$POROGRAIN" -help dem_kn
 expect_error 2 "no section and no option 'nothing_like_it'" "$POROGRAIN" -help nothing_like_it
 
