@@ -98,6 +98,11 @@ PETSC_INTERN PetscErrorCode PgOptionFileRead(const char given[], PetscBool yaml,
    *rest starts as the text, which is taken apart. */
 PETSC_INTERN PetscBool PgOptionFileNext(char **rest, char *word[3]);
 
+/* ---- shipped.c ---- */
+
+/* Whether `name` is a file that comes with the program, beside it as it was installed or built, and where. */
+PETSC_INTERN PetscBool PgShippedFind(const char name[], char file[], size_t size);
+
 /* ---- help.c ---- */
 
 /* Takes -help [TOPIC] and -version out of the arguments. */

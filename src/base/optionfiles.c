@@ -185,9 +185,24 @@ static const char *WhyNotOpened(const char file[], FILE **in)
   return *in ? NULL : strerror(errno);
 }
 
+/* A file that comes with the program, named as from its own folder or by its last part alone. */
+static PetscBool IsShipped(const char file[], char found[], size_t size)
+{
+  char        name[PETSC_MAX_PATH_LEN];
+  const char *last = strrchr(file, '/');
+  char       *real;
+
+  (void)snprintf(name, sizeof name, "options/%.1000s", last ? last + 1 : file);
+  if (!PgShippedFind(file, found, size) && !PgShippedFind(name, found, size)) return PETSC_FALSE;
+  real = realpath(found, NULL);
+  if (real) (void)snprintf(found, size, "%s", real);
+  free(real);
+  return PETSC_TRUE;
+}
+
 static PetscErrorCode CheckFile(const char given[], PetscBool yaml, int depth, const Answer *answer)
 {
-  char           file[PETSC_MAX_PATH_LEN], *line = NULL;
+  char           file[PETSC_MAX_PATH_LEN], shipped[PETSC_MAX_PATH_LEN], *line = NULL;
   const char    *reason;
   size_t         room = 0;
   ssize_t        size;
@@ -203,7 +218,11 @@ static PetscErrorCode CheckFile(const char given[], PetscBool yaml, int depth, c
   }
   reason = WhyNotOpened(file, &in);
   if (reason) {
-    (void)snprintf(answer->message, answer->length, "options file '%s': %s", file, reason);
+    if (IsShipped(file, shipped, sizeof shipped))
+      (void)snprintf(answer->message, answer->length, "options file '%s': %s; did you mean '%s'?", file, reason,
+                     shipped);
+    else
+      (void)snprintf(answer->message, answer->length, "options file '%s': %s", file, reason);
     return PETSC_ERR_FILE_OPEN;
   }
   for (int number = 1; !err && (size = getline(&line, &room, in)) >= 0; number++) {

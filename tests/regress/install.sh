@@ -37,6 +37,11 @@ works() {
       -output panel.h5 >panel.log
     "$root/bin/porograin-plot" panel.h5 -plot_gnuplot none >plot.log
     [ -s figures/panel-pressure.gp ] || fail 'porograin-plot of the installed program'
+    # a shipped file that is named as in the source or without its folder
+    for file in options/panel_case1_ns.opts panel_case1_ns.opts; do
+      expect_error 4 "file '$file': No such file or directory; did you mean '$root/share/porograin/options/panel_case1_ns.opts'" \
+        "$root/bin/porograin" -options_file "$file"
+    done
     # the list of solvers is found although there is no folder options here
     "$root/bin/porograin-study" -study_sizes 199 -study_only cg-jacobi -study_repeats 1 >study.log
     grep -q '^ *199 .*cg-jacobi' study.log || fail 'porograin-study of the installed program'
