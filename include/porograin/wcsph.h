@@ -75,8 +75,9 @@ PETSC_EXTERN PetscErrorCode PgWcsphSetDamping(PgWcsph wcsph, PetscReal rate, Pet
 PETSC_EXTERN PetscErrorCode PgWcsphSetFromOptions(PgWcsph wcsph);
 
 /* To be called when everything is set up: refuses options without effect and unknown ones, as PgOptionsCheck(), by the
-   rules of this room; probe as there, may be NULL. */
-PETSC_EXTERN PetscErrorCode PgWcsphCheckOptions(PgWcsph wcsph, PetscErrorCode (*probe)(void *), void *context);
+   rules of this room and `count` more, which know the same facts; probe as there, may be NULL. */
+PETSC_EXTERN PetscErrorCode PgWcsphCheckOptions(PgWcsph wcsph, PetscInt count, const PgOptionRule more[],
+                                                PetscErrorCode (*probe)(void *), void *context);
 
 /* Every rank gives the same particles; permanent ids are given in this order. */
 typedef struct {

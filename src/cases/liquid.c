@@ -316,7 +316,7 @@ PetscErrorCode PgLiquidRun(PgLiquid l, const char output[])
   PetscFunctionBeginUser;
   PetscCall(PgStagePush(PG_STAGE_SETUP));
   PetscCall(PgLiquidSetUp(l));
-  PetscCall(PgWcsphCheckOptions(l->wcsph, NULL, NULL));
+  PetscCall(PgWcsphCheckOptions(l->wcsph, 0, NULL, NULL, NULL));
   PetscCall(PgWcsphGetParticles(l->wcsph, &particles));
   if (output[0]) PetscCall(PgOutputCreate(particles, output, COLUMNS, columns, &l->run.output));
   PetscCall(PgStagePop());

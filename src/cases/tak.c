@@ -23,6 +23,7 @@ PetscErrorCode PgTakRunOptions(PgTak *tak, PetscReal end)
 {
   const PgCaseRunTexts texts = {.dt      = "time step; default: of the case",
                                 .history = "time between history rows; default a thousandth of the run"};
+  PetscReal            gravity[2];
 
   PetscFunctionBeginUser;
   tak->run.end = end;
@@ -30,6 +31,9 @@ PetscErrorCode PgTakRunOptions(PgTak *tak, PetscReal end)
   PetscCall(PgWcsphSetSpacing(tak->wcsph, tak->dx));
   PetscCall(PgWcsphSetFromOptions(tak->wcsph));
   PetscCall(PgBodiesSetFromOptions(tak->bodies));
+  PetscCall(PgWcsphGetLiquid(tak->wcsph, NULL, NULL, NULL, gravity));
+  PgInputCheck(gravity[0] == 0.0 && gravity[1] == 0.0, tak->comm,
+               "option -wcsph_gravity: these examples have none, and their elements and zones would not feel it");
   PetscFunctionReturn(0);
 }
 
@@ -75,12 +79,12 @@ PetscErrorCode PgTakChooseSteps(PgTak *tak)
 }
 
 PetscErrorCode PgTakStart(PgTak *tak, const char output[], PetscInt columns, const PgColumn column[],
-                          PetscErrorCode (*probe)(void *), void *context)
+                          const PgOptionRules *rules, PetscErrorCode (*probe)(void *), void *context)
 {
   PgParticles particles;
 
   PetscFunctionBeginUser;
-  PetscCall(PgWcsphCheckOptions(tak->wcsph, probe, context));
+  PetscCall(PgWcsphCheckOptions(tak->wcsph, rules->count, rules->rule, probe, context));
   PetscCall(PgWcsphGetParticles(tak->wcsph, &particles));
   if (output[0]) PetscCall(PgOutputCreate(particles, output, columns, column, &tak->run.output));
   PetscCall(PgWcsphView(tak->wcsph, PETSC_VIEWER_STDOUT_(tak->comm)));

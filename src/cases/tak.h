@@ -21,9 +21,9 @@ PETSC_INTERN PetscErrorCode PgTakRunOptions(PgTak *tak, PetscReal end);
 PETSC_INTERN PetscErrorCode PgTakAddBlock(PgTak *tak, PgWcsphKind kind, PetscInt body, const PetscReal low[2],
                                           PetscInt columns, PetscInt rows);
 PETSC_INTERN PetscErrorCode PgTakChooseSteps(PgTak *tak); /* after PgWcsphSetUp() */
-/* Refuses unread options, makes the result file. */
+/* Refuses unread options and those without effect, by the case's own rules, too; makes the result file. */
 PETSC_INTERN PetscErrorCode PgTakStart(PgTak *tak, const char output[], PetscInt columns, const PgColumn column[],
-                                       PetscErrorCode (*probe)(void *), void *context);
+                                       const PgOptionRules *rules, PetscErrorCode (*probe)(void *), void *context);
 /* What the run has cost, and its files; `solves` of what else is in it, which may be NULL. Collective. */
 PETSC_INTERN PetscErrorCode PgTakSummary(PgTak *tak, const PgSolves *solves);
 /* One step of liquid and bodies. */

@@ -201,7 +201,16 @@ static PetscErrorCode Fill(Block *b)
   const PetscReal dx = b->tak.dx, L = SIDE * dx, low[2] = {L, 0}, left = L - dx * (PetscReal)more;
   const PetscReal below[2] = {left, -LAYERS * dx}, above[2] = {left, L};
 
+  PetscReal reach;
+
   PetscFunctionBeginUser;
+  PetscCall(PgWcsphGetReach(b->tak.wcsph, &reach));
+  /* particles half a spacing from a face see its layers at 1, 2, 3 spacings */
+  PgInputCheck(
+      reach < (LAYERS + 1) * dx * (1.0 - 1e-9), b->tak.comm,
+      "option -wcsph_smoothing: the kernel reaches %g spacings, the sides of the zones and the walls are %d deep "
+      "and bear less than %d",
+      (double)(reach / dx), LAYERS, LAYERS + 1);
   PetscCall(AddBodies(b));
   PetscCall(PgTakAddBlock(&b->tak, PG_WCSPH_FLUID, 0, low, SIDE, SIDE));
   PetscCall(PgTakAddBlock(&b->tak, PG_WCSPH_WALL, 0, below, SIDE + 2 * more, LAYERS));
@@ -353,17 +362,23 @@ static PetscErrorCode TimeLoop(Block *b)
   PetscFunctionReturn(0);
 }
 
+static const PgOptionRule rules[] = {
+    {"-tak_block_young", "-tak_block_bodies linear|finite", "rigid bodies do not deform"},
+    {"-tak_block_poisson", "-tak_block_bodies linear|finite", "rigid bodies do not deform"},
+};
+
 static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
 {
-  Block         *b = (Block *)context;
-  PetscErrorCode err;
+  const PgOptionRules all = {.count = sizeof rules / sizeof *rules, .rule = rules};
+  Block              *b   = (Block *)context;
+  PetscErrorCode      err;
 
   PetscFunctionBeginUser;
   PetscCall(PgStagePush(PG_STAGE_SETUP));
   PetscCall(Fill(b));
   PetscCall(PgTakChooseSteps(&b->tak));
   for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemSetUpSolver(b->zone[k].fem, b->tak.run.dt * (PetscReal)b->every));
-  PetscCall(PgTakStart(&b->tak, output, COLUMNS, columns, PgFemProbeOptions, b->zone[0].fem));
+  PetscCall(PgTakStart(&b->tak, output, COLUMNS, columns, &all, PgFemProbeOptions, b->zone[0].fem));
   PetscCall(PgStagePop());
   for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemView(b->zone[k].fem, PETSC_VIEWER_STDOUT_(comm)));
   err = TimeLoop(b);

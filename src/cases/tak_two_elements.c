@@ -229,16 +229,22 @@ static PetscErrorCode TimeLoop(Channel *c)
   PetscFunctionReturn(0);
 }
 
+static const PgOptionRule rules[] = {
+    {"-wcsph_contact", "-bodies_coupling reactions", "Q p knows no contact"},
+    {"-wcsph_contact_friction", "-bodies_coupling reactions", "Q p knows no friction"},
+};
+
 static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
 {
-  Channel       *c = (Channel *)context;
-  PetscErrorCode err;
+  const PgOptionRules all = {.count = sizeof rules / sizeof *rules, .rule = rules};
+  Channel            *c   = (Channel *)context;
+  PetscErrorCode      err;
 
   PetscFunctionBeginUser;
   PetscCall(PgStagePush(PG_STAGE_SETUP));
   PetscCall(Fill(c));
   PetscCall(PgTakChooseSteps(&c->tak));
-  PetscCall(PgTakStart(&c->tak, output, COLUMNS, columns, NULL, NULL));
+  PetscCall(PgTakStart(&c->tak, output, COLUMNS, columns, &all, NULL, NULL));
   PetscCall(PgStagePop());
   err = TimeLoop(c);
   if (!err && output[0]) PetscCall(PetscPrintf(comm, "wrote %s\n", output));

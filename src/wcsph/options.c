@@ -98,12 +98,19 @@ static PetscBool Fact(void *wcsph, const char name[])
   return (PetscBool)(((PgWcsph)wcsph)->added_bodies > 0);
 }
 
-PetscErrorCode PgWcsphCheckOptions(PgWcsph w, PetscErrorCode (*probe)(void *), void *context)
+PetscErrorCode PgWcsphCheckOptions(PgWcsph w, PetscInt count, const PgOptionRule more[],
+                                   PetscErrorCode (*probe)(void *), void *context)
 {
-  const PgOptionRules all = {sizeof rules / sizeof *rules, rules, Fact, w};
+  const PetscInt own = (PetscInt)(sizeof rules / sizeof *rules);
+  PgOptionRules  all = {.count = own + count, .fact = Fact, .context = w};
+  PgOptionRule  *rule;
 
   PetscFunctionBeginUser;
+  PetscCall(PetscMalloc1(all.count, &rule));
+  for (PetscInt k = 0; k < all.count; k++) rule[k] = k < own ? rules[k] : more[k - own];
+  all.rule = rule;
   PetscCall(PgOptionsCheck(w->comm, &all, probe, context));
+  PetscCall(PetscFree(rule));
   PetscFunctionReturn(0);
 }
 

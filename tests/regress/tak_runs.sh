@@ -43,6 +43,9 @@ h5diff viscous1.h5 viscous2.h5 /snapshots /snapshots || fail '6.1: 2 ranks are n
 # Stokes' flow: force and walls balance; p_A and p_B share what is left of F/H
 p=$(last mm.csv pressure_a)
 awk -v p="$p" 'BEGIN { exit !(p > 0.1 && p < 0.6) }' || fail "6.1 in mm: p_A is $p Pa of 0.556"
+# 2.3e-5 m/s; without friction between elements and walls it were 6e-5
+expect_close "$(last mm.csv velocity_left)" 2.3e-5 0.2e-5
+expect_close "$(last mm.csv velocity_right)" 2.3e-5 0.2e-5
 
 # ---- 6.2 ----
 for name in rest ends; do
@@ -89,3 +92,16 @@ bad '-tak_block_poisson' -case tak_block -tak_block_poisson 0.5
 bad '-tak_block_cells' -case tak_block -tak_block_cells 2.5,3
 bad '-up_poisson' -case tak_block -up_poisson 0.6
 bad '-tak_block_yung' -case tak_block -tak_block_yung 1e9
+for modulus in 'young 1e7' 'poisson 0.3'; do
+  # shellcheck disable=SC2086 # a name and its value
+  bad "option -tak_block_$modulus has no effect with -tak_block_bodies rigid: rigid bodies do not deform" -case tak_block \
+    -tak_block_bodies rigid -tak_block_$modulus
+done
+for case in two_elements block; do
+  bad 'option -wcsph_gravity: these examples have none, and their elements and zones would not feel it' -case tak_$case -wcsph_gravity 0,-1
+done
+bad 'option -wcsph_smoothing: the kernel reaches 4.2 spacings, the sides of the zones and the walls are 3 deep and bear less than 4' -case tak_block -wcsph_smoothing 1.4
+# Q p knows neither, and nothing else meets there; in 6.2 the walls rub the zones
+bad 'option -wcsph_contact_friction true has no effect with -bodies_coupling q: Q p knows no friction' \
+  -case tak_two_elements -bodies_coupling q -wcsph_contact_friction true
+bad 'option -wcsph_contact 2 has no effect with -bodies_coupling q: Q p knows no contact' -case tak_two_elements -bodies_coupling q -wcsph_contact 2
