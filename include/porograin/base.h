@@ -219,6 +219,41 @@ PETSC_EXTERN void PgSolvesAdd(PgSolves *work, PetscInt iterations);
 PETSC_EXTERN PetscErrorCode PgMeterSolves(MPI_Comm comm, const PgSolves *work, const char what[], const char unit[],
                                           const char more[]);
 
+/* ---- what ends a run before its time ---- */
+
+typedef enum {
+  PG_ENDING_NONE       = 0,
+  PG_ENDING_CHECKPOINT = 1, /* write a checkpoint and go on */
+  PG_ENDING_INTERRUPT  = 2, /* end */
+  PG_ENDING_TERMINATE  = 4, /* write a checkpoint and end */
+  PG_ENDING_WALL_TIME  = 8, /* the same */
+  PG_ENDING_PIPE       = 16 /* the same, without words */
+} PgEnding;
+/* Those that end the run, and those that ask for a checkpoint. */
+#define PG_ENDING_ENDS  (PG_ENDING_INTERRUPT | PG_ENDING_TERMINATE | PG_ENDING_WALL_TIME | PG_ENDING_PIPE)
+#define PG_ENDING_SAVES (PG_ENDING_CHECKPOINT | PG_ENDING_TERMINATE | PG_ENDING_WALL_TIME | PG_ENDING_PIPE)
+
+typedef struct {
+  MPI_Comm       comm;
+  PetscReal      wall_time; /* limit [s], 0: none */
+  PetscLogDouble created;   /* the clock when the run began [s] */
+  PetscLogDouble cost;      /* of a checkpoint [s of wall time] */
+  PetscInt       most;      /* steps between two looks at most */
+  PetscInt       next, every;
+  PetscLogDouble last; /* the clock at the last look [s] */
+} PgEndingWatch;
+/* Reads -wall_time. Collective. */
+PETSC_EXTERN PetscErrorCode PgEndingSetFromOptions(PetscOptionItems *PetscOptionsObject, PgEndingWatch *watch);
+/* From here to PgEndingStop() the signals TERM, INT and USR1 are kept for PgEndingLook(). `created` and `most` are set. */
+PETSC_EXTERN PetscErrorCode PgEndingStart(PgEndingWatch *watch, MPI_Comm comm, PetscInt step);
+/* What has come up since the last time, as a sum of PgEnding; the same on all ranks. After each step. Collective. */
+PETSC_EXTERN PetscErrorCode PgEndingLook(PgEndingWatch *watch, PetscInt step, int *ending);
+PETSC_EXTERN void           PgEndingStop(void);
+/* One line on how to go on after `step` at `time` [s], and the exit status of an early end. `file` is the last checkpoint,
+   which holds step `held` (< 0: none has been written); NULL: the case has none. Collective. */
+PETSC_EXTERN PetscErrorCode PgEndingTell(MPI_Comm comm, int ending, PetscInt step, PetscReal time, const char file[],
+                                         PetscInt held);
+
 /* ---- one record among those of all ranks ---- */
 
 /* The rank with the largest value, of equal ones with the smallest ids (first, then second), for a message that is the

@@ -284,13 +284,15 @@ static PetscErrorCode Observe(PgLiquid l, PetscInt step)
 
 static PetscErrorCode TimeLoop(PgLiquid l)
 {
+  PetscBool on = PETSC_TRUE;
+
   PetscFunctionBeginUser;
-  PetscCall(PgMeterStart(&l->run.meter, l->comm, 0, l->run.steps));
+  PetscCall(PgCaseRunStart(&l->run, 0));
   PetscCall(Observe(l, 0));
-  for (PetscInt step = 1; step <= l->run.steps; step++) {
+  for (PetscInt step = 1; on; step++) {
     PetscCall(PgWcsphStep(l->wcsph, l->run.dt));
     PetscCall(Observe(l, step));
-    PgCaseRunBar(&l->run, step);
+    PetscCall(PgCaseRunGoesOn(&l->run, step, &on));
   }
   if (l->run.output) PetscCall(PgOutputFinish(l->run.output));
   PetscFunctionReturn(0);
@@ -299,12 +301,15 @@ static PetscErrorCode TimeLoop(PgLiquid l)
 static PetscErrorCode Summary(PgLiquid l)
 {
   PgParticles particles;
-  PetscInt    count;
+  PetscInt    count, steps;
+  PetscReal   time;
 
   PetscFunctionBeginUser;
   PetscCall(PgWcsphGetParticles(l->wcsph, &particles));
   PetscCall(PgParticlesGetSizes(particles, NULL, NULL, &count));
-  PetscCall(PgCaseRunSummary(&l->run, l->run.steps, count, "particle", NULL, NULL));
+  PetscCall(PgWcsphGetTime(l->wcsph, &steps, &time));
+  PetscCall(PgCaseRunSummary(&l->run, steps, count, "particle", NULL, NULL));
+  PetscCall(PgCaseRunTell(&l->run, steps, time, NULL, -1));
   PetscFunctionReturn(0);
 }
 
@@ -324,6 +329,7 @@ PetscErrorCode PgLiquidRun(PgLiquid l, const char output[])
                         l->run.steps, (double)l->run.end));
   PetscCall(PgWcsphView(l->wcsph, PETSC_VIEWER_STDOUT_(l->comm)));
   err = TimeLoop(l);
+  PgCaseRunStop(&l->run);
   if (!err && output[0]) PetscCall(PetscPrintf(l->comm, "wrote %s\n", output));
   if (!err) PetscCall(Summary(l));
   PetscCall(PgOutputDestroy(&l->run.output));

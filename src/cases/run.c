@@ -6,6 +6,8 @@ PetscErrorCode PgCaseRunSetFromOptions(MPI_Comm comm, const PgCaseRunTexts *text
   PetscFunctionBeginUser;
   run->comm  = comm;
   run->every = run->history = -1.0;
+  run->watch.created        = MPI_Wtime();
+  run->watch.most           = 200; /* steps are of one kind: their time does not grow by much from one to the next */
   PetscOptionsBegin(comm, "", "run: what is computed, time step and end", "");
   PetscCall(PgOptionReal(PetscOptionsObject, "-dt", texts->dt, "s", PG_POSITIVE, 1e12, &run->dt, NULL));
   PetscCall(PgOptionReal(PetscOptionsObject, "-end_time", "end of the run; default: of the case", "s", PG_POSITIVE,
@@ -17,6 +19,7 @@ PetscErrorCode PgCaseRunSetFromOptions(MPI_Comm comm, const PgCaseRunTexts *text
   PetscCall(PgOptionReal(PetscOptionsObject, "-history_every", texts->history, "s", 0.0, 1e15, &run->history, NULL));
   PetscCall(PgMeterSetFromOptions(comm, PetscOptionsObject, &run->meter, NULL));
   if (texts->more) PetscCall((*texts->more)(texts->context, PetscOptionsObject));
+  PetscCall(PgEndingSetFromOptions(PetscOptionsObject, &run->watch));
   PetscOptionsEnd();
   PetscFunctionReturn(0);
 }
@@ -45,6 +48,38 @@ PgCaseRunDueNow PgCaseRunDue(const PgCaseRun *run, PetscInt step)
                            .snapshot = (PetscBool)(run->output && (last || step % Interval(run, run->every) == 0))};
 }
 
+PetscErrorCode PgCaseRunStart(PgCaseRun *run, PetscInt begun)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PgMeterStart(&run->meter, run->comm, begun, run->steps));
+  PetscCall(PgEndingStart(&run->watch, run->comm, begun));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgCaseRunGoesOn(PgCaseRun *run, PetscInt step, PetscBool *on)
+{
+  PetscFunctionBeginUser;
+  if (PgMeterBarDue(&run->meter, step))
+    PgMeterBar(&run->meter, step, PetscMin((PetscReal)step * run->dt, run->end), run->end, "");
+  PetscCall(PgEndingLook(&run->watch, step, &run->ending));
+  if (step >= run->steps) run->ending = PG_ENDING_NONE;
+  *on = (PetscBool)(step < run->steps && !(run->ending & PG_ENDING_ENDS));
+  PetscFunctionReturn(0);
+}
+
+void PgCaseRunStop(PgCaseRun *run)
+{
+  (void)run;
+  PgEndingStop();
+}
+
+PetscErrorCode PgCaseRunTell(const PgCaseRun *run, PetscInt step, PetscReal time, const char file[], PetscInt held)
+{
+  PetscFunctionBeginUser;
+  if (run->ending & PG_ENDING_ENDS) PetscCall(PgEndingTell(run->comm, run->ending, step, time, file, held));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgCaseRunWrite(PgCaseRun *run, PgCaseRunDueNow due, PetscReal time, const PetscReal row[])
 {
   PetscFunctionBeginUser;
@@ -54,12 +89,6 @@ PetscErrorCode PgCaseRunWrite(PgCaseRun *run, PgCaseRunDueNow due, PetscReal tim
   if (due.snapshot) PetscCall(PgOutputSnapshot(run->output, time, 0, NULL));
   PetscCall(PgStagePop());
   PetscFunctionReturn(0);
-}
-
-void PgCaseRunBar(PgCaseRun *run, PetscInt step)
-{
-  if (PgMeterBarDue(&run->meter, step))
-    PgMeterBar(&run->meter, step, PetscMin((PetscReal)step * run->dt, run->end), run->end, "");
 }
 
 PetscErrorCode PgCaseRunSummary(const PgCaseRun *run, PetscInt steps, PetscInt count, const char one[],

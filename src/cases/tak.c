@@ -89,7 +89,7 @@ PetscErrorCode PgTakStart(PgTak *tak, const char output[], PetscInt columns, con
   if (output[0]) PetscCall(PgOutputCreate(particles, output, columns, column, &tak->run.output));
   PetscCall(PgWcsphView(tak->wcsph, PETSC_VIEWER_STDOUT_(tak->comm)));
   PetscCall(PgBodiesView(tak->bodies, PETSC_VIEWER_STDOUT_(tak->comm)));
-  PetscCall(PgMeterStart(&tak->run.meter, tak->comm, 0, tak->run.steps));
+  PetscCall(PgCaseRunStart(&tak->run, 0));
   PetscFunctionReturn(0);
 }
 
@@ -111,10 +111,13 @@ PetscErrorCode PgTakSummary(PgTak *tak, const PgSolves *solves)
 {
   PgParticles particles;
   PetscInt    count;
+  PetscReal   time;
 
   PetscFunctionBeginUser;
   PetscCall(PgWcsphGetParticles(tak->wcsph, &particles));
   PetscCall(PgParticlesGetSizes(particles, NULL, NULL, &count));
-  PetscCall(PgCaseRunSummary(&tak->run, tak->run.steps, count, "particle", solves, "solves of the zones"));
+  PetscCall(PgWcsphGetTime(tak->wcsph, NULL, &time));
+  PetscCall(PgCaseRunSummary(&tak->run, tak->step, count, "particle", solves, "solves of the zones"));
+  PetscCall(PgCaseRunTell(&tak->run, tak->step, time, NULL, -1));
   PetscFunctionReturn(0);
 }

@@ -348,15 +348,17 @@ static PetscErrorCode Observe(Block *b)
 /* The zones go first, with the forces of the liquid as it is; then liquid and bodies, their sides moving evenly. */
 static PetscErrorCode TimeLoop(Block *b)
 {
+  PetscBool on = PETSC_TRUE;
+
   PetscFunctionBeginUser;
   PetscCall(Observe(b));
-  while (b->tak.step < b->tak.run.steps) {
+  while (on) {
     if (b->tak.step % b->every == 0) PetscCall(StepZones(b));
     b->sub++;
     PetscCall(PgTakStep(&b->tak));
     PetscCall(TakeForces(b));
     PetscCall(Observe(b));
-    PgCaseRunBar(&b->tak.run, b->tak.step);
+    PetscCall(PgCaseRunGoesOn(&b->tak.run, b->tak.step, &on));
   }
   if (b->tak.run.output) PetscCall(PgOutputFinish(b->tak.run.output));
   PetscFunctionReturn(0);
@@ -382,6 +384,7 @@ static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
   PetscCall(PgStagePop());
   for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemView(b->zone[k].fem, PETSC_VIEWER_STDOUT_(comm)));
   err = TimeLoop(b);
+  PgCaseRunStop(&b->tak.run);
   if (!err && output[0]) PetscCall(PetscPrintf(comm, "wrote %s\n", output));
   if (!err) PetscCall(PgTakSummary(&b->tak, &b->solves));
   PetscFunctionReturn(err);

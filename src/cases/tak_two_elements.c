@@ -210,12 +210,12 @@ static PetscErrorCode Load(Channel *c, PetscBool *loaded)
 
 static PetscErrorCode TimeLoop(Channel *c)
 {
-  PetscBool   loaded = PETSC_FALSE;
+  PetscBool   loaded = PETSC_FALSE, on = PETSC_TRUE;
   PgBodyState left;
 
   PetscFunctionBeginUser;
   PetscCall(Observe(c));
-  while (c->tak.step < c->tak.run.steps) {
+  while (on) {
     PetscCall(Load(c, &loaded));
     PetscCall(PgBodiesGet(c->tak.bodies, 0, &left));
     c->before = left.centre[0];
@@ -223,7 +223,7 @@ static PetscErrorCode TimeLoop(Channel *c)
     PetscCall(PgBodiesGet(c->tak.bodies, 0, &left));
     if (loaded) c->work += c->force * (left.centre[0] - c->before);
     PetscCall(Observe(c));
-    PgCaseRunBar(&c->tak.run, c->tak.step);
+    PetscCall(PgCaseRunGoesOn(&c->tak.run, c->tak.step, &on));
   }
   if (c->tak.run.output) PetscCall(PgOutputFinish(c->tak.run.output));
   PetscFunctionReturn(0);
@@ -247,6 +247,7 @@ static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
   PetscCall(PgTakStart(&c->tak, output, COLUMNS, columns, &all, NULL, NULL));
   PetscCall(PgStagePop());
   err = TimeLoop(c);
+  PgCaseRunStop(&c->tak.run);
   if (!err && output[0]) PetscCall(PetscPrintf(comm, "wrote %s\n", output));
   if (!err) PetscCall(PgTakSummary(&c->tak, NULL));
   PetscFunctionReturn(err);

@@ -259,18 +259,20 @@ static PetscErrorCode TimeLoop(PgUp up)
 {
   PgFemStats stats;
   PetscInt   begun;
+  PetscBool  on;
 
   PetscFunctionBeginUser;
   PetscCall(PgFemGetTime(up->fem, &begun, NULL));
-  PetscCall(PgMeterStart(&up->run.meter, up->comm, begun, up->run.steps));
+  PetscCall(PgCaseRunStart(&up->run, begun));
   if (!up->again.restart[0]) PetscCall(Observe(up, 0));
-  for (PetscInt step = begun + 1; step <= up->run.steps; step++) {
+  on = (PetscBool)(begun < up->run.steps);
+  for (PetscInt step = begun + 1; on; step++) {
     PetscCall(PgFemStep(up->fem, StepSize(&up->run, step)));
-    PetscCall(Observe(up, step));
-    PetscCall(PgUpCheckpoint(up, step));
     PetscCall(PgFemGetStats(up->fem, &stats));
     PgSolvesAdd(&up->solves, stats.iterations);
-    PgCaseRunBar(&up->run, step);
+    PetscCall(Observe(up, step));
+    PetscCall(PgCaseRunGoesOn(&up->run, step, &on));
+    PetscCall(PgUpCheckpoint(up, step));
   }
   if (up->run.output) PetscCall(PgOutputFinish(up->run.output));
   PetscFunctionReturn(0);
@@ -278,8 +280,10 @@ static PetscErrorCode TimeLoop(PgUp up)
 
 static PetscErrorCode Summary(PgUp up)
 {
-  PgFemNodes nodes;
-  PetscInt   count = 0;
+  const PgUpRestartSettings *again = &up->again;
+  PgFemNodes                 nodes;
+  PetscInt                   count = 0, step;
+  PetscReal                  time;
 
   PetscFunctionBeginUser;
   PetscCall(PgFemGetNodes(up->fem, &nodes));
@@ -287,9 +291,10 @@ static PetscErrorCode Summary(PgUp up)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, up->comm));
   PetscCall(PgCaseRunSummary(&up->run, up->solves.solves, count, "node", &up->solves,
                              "solves for displacement and pressure"));
-  if (up->again.checkpoint[0] && up->solves.solves > 0)
-    PetscCall(
-        PetscPrintf(up->comm, "checkpoint in %s, of step %" PetscInt_FMT "\n", up->again.checkpoint, up->run.steps));
+  if (again->written)
+    PetscCall(PetscPrintf(up->comm, "checkpoint in %s, of step %" PetscInt_FMT "\n", again->checkpoint, again->held));
+  PetscCall(PgFemGetTime(up->fem, &step, &time));
+  PetscCall(PgCaseRunTell(&up->run, step, time, again->written ? again->checkpoint : again->restart, again->held));
   PetscFunctionReturn(0);
 }
 
@@ -324,6 +329,7 @@ PetscErrorCode PgUpRun(PgUp up, const char output[])
   PetscCall(PgStagePop());
   PetscCall(PgFemView(up->fem, PETSC_VIEWER_STDOUT_(up->comm)));
   err = TimeLoop(up);
+  PgCaseRunStop(&up->run);
   if (!err && output[0]) PetscCall(PetscPrintf(up->comm, "wrote %s\n", output));
   if (!err) PetscCall(Summary(up));
   PetscCall(PgOutputDestroy(&up->run.output));

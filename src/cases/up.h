@@ -9,7 +9,9 @@ typedef struct PgUpProblem_s PgUpProblem;
 typedef struct {
   char         checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN]; /* empty: none */
   PetscReal    every;                                                       /* [s], < 0: default */
-  PgFemResults before; /* results of the run that goes on, or at the last checkpoint */
+  PetscInt     held;                                                        /* step of the last one, -1: none */
+  PetscBool    written; /* by this program, that is: into `checkpoint` */
+  PgFemResults before;  /* results of the run that goes on, or at the last checkpoint */
 } PgUpRestartSettings;
 
 struct PgUp_s {
@@ -46,7 +48,7 @@ PETSC_INTERN PetscErrorCode    PgUpCreateProblem(MPI_Comm comm, const PgUpProble
 PETSC_INTERN PetscErrorCode PgUpRestartOptions(void *up, PetscOptionItems *PetscOptionsObject);
 PETSC_INTERN PetscErrorCode PgUpCheckPlaces(PgUp up, const char output[]);
 PETSC_INTERN PetscErrorCode PgUpRestart(PgUp up);
-/* Writes one when it is due after this step. */
+/* Writes one when it is due after this step, or what ends the run asks for it. */
 PETSC_INTERN PetscErrorCode PgUpCheckpoint(PgUp up, PetscInt step);
 
 /* Displacement along y of the node nearest to x, downward; the same on all ranks. Collective. */

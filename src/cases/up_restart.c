@@ -8,6 +8,7 @@ PetscErrorCode PgUpRestartOptions(void *context, PetscOptionItems *PetscOptionsO
 
   PetscFunctionBeginUser;
   again->every = -1.0;
+  again->held  = -1;
   PetscCall(PgOptionString(PetscOptionsObject, "-checkpoint",
                            "checkpoint FILE, written at the end too; the one before it is kept as FILE.1",
                            again->checkpoint, sizeof again->checkpoint, NULL));
@@ -53,12 +54,14 @@ PetscErrorCode PgUpCheckpoint(PgUp up, PetscInt step)
   PgUpRestartSettings *again    = &up->again;
   const PetscReal      interval = again->every < 0.0 ? up->run.end / 10.0 : again->every;
   const PetscInt       every    = PetscMax(1, (PetscInt)PetscMin(interval / up->run.dt + 0.5, 1e9));
+  const PetscLogDouble start    = MPI_Wtime();
+  const PetscBool      due      = (PetscBool)(step == up->run.steps || (interval > 0.0 && step % every == 0));
   char                 name[128];
   PgState              state;
   PetscErrorCode       err;
 
   PetscFunctionBeginUser;
-  if (!again->checkpoint[0] || (step < up->run.steps && (interval <= 0.0 || step % every))) PetscFunctionReturn(0);
+  if (!again->checkpoint[0] || !(due || up->run.ending & PG_ENDING_SAVES)) PetscFunctionReturn(0);
   PetscCall(PgStagePush(PG_STAGE_OUTPUT));
   if (up->run.output) {
     PetscCall(PgOutputFlush(up->run.output));
@@ -72,6 +75,9 @@ PetscErrorCode PgUpCheckpoint(PgUp up, PetscInt step)
   PetscCall(PgStateDestroy(&state));
   PetscCall(err);
   PetscCall(PgStagePop());
+  again->held        = step;
+  again->written     = PETSC_TRUE;
+  up->run.watch.cost = MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }
 
@@ -117,6 +123,7 @@ PetscErrorCode PgUpRestart(PgUp up)
       "run goes on from the one before it, %s.1",
       again->restart, (double)time, (double)up->run.dt, again->restart);
   PetscCall(PgFemTakeState(up->fem));
+  again->held = step;
   PetscCall(PetscPrintf(up->comm, "continued from %s, step %" PetscInt_FMT ", t = %.6e s\n", again->restart, step,
                         (double)time));
   PetscFunctionReturn(0);

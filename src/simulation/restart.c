@@ -93,7 +93,7 @@ PetscErrorCode PgSimulationCheckpoint(PgSimulation sim)
   PetscCall(PgStagePop());
   sim->checkpoints++;
   sim->checkpoint_step = sim->step;
-  sim->checkpoint_cost = MPI_Wtime() - start;
+  sim->watch.cost      = MPI_Wtime() - start;
   PetscFunctionReturn(0);
 }
 

@@ -21,7 +21,7 @@ PetscErrorCode PgSimulationCreate(MPI_Comm comm, PgSimulation *simulation)
   sim->checkpoint_time                                      = -1.0;
   sim->checkpoint_step                                      = -1;
   sim->porosity_start                                       = -1;
-  sim->created                                              = MPI_Wtime();
+  sim->watch.created                                        = MPI_Wtime();
   PetscCall(PgParticlesCreate(comm, &sim->particles));
   PetscCall(PgNeighborsCreate(sim->particles, &sim->neighbors));
   PetscCall(PgDemCreate(sim->particles, sim->neighbors, &sim->dem));
@@ -120,9 +120,7 @@ static PetscErrorCode OutputOptions(PgSimulation sim, PetscOptionItems *PetscOpt
                            "go on from a checkpoint: FILE (or FILE.1 if that is damaged), or the latest of a directory "
                            "or pattern",
                            sim->restart_file, sizeof sim->restart_file, NULL));
-  PetscCall(PgOptionReal(PetscOptionsObject, "-wall_time",
-                         "end after so much time of the clock, with a checkpoint; 0: no limit", "s", 0.0, 1e9,
-                         &sim->wall_time, NULL));
+  PetscCall(PgEndingSetFromOptions(PetscOptionsObject, &sim->watch));
   PetscFunctionReturn(0);
 }
 

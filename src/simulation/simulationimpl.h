@@ -67,19 +67,15 @@ struct PgSimulation_s {
   PgField        porosity_start;         /* -1: water has its own, or nobody asks for it */
 
   /* restart and end */
-  char           case_name[64], fluid_name[16]; /* as checkpoints know them */
-  char           checkpoint_file[PETSC_MAX_PATH_LEN], restart_file[PETSC_MAX_PATH_LEN];
-  PetscReal      checkpoint_time;  /* between checkpoints, as asked [s], < 0: default */
-  PetscInt       checkpoint_every; /* [fluid steps] */
-  PetscInt       checkpoint_step;  /* of the last one, -1: none */
-  PetscLogDouble checkpoint_cost;  /* of the last one [s of wall time] */
-  PetscReal      wall_time;        /* limit [s], 0: none */
-  PetscInt       builds_before;    /* list builds of the run that this program did not make itself */
-  PetscInt       rows, snapshots;  /* in the result file at the checkpoint */
-  char           run[PG_RUN_NAME]; /* of the result file */
-  PetscLogDouble created;
-  PetscInt       next_look, look_every; /* for signals [fluid steps] */
-  PetscLogDouble last_look;
+  char          case_name[64], fluid_name[16]; /* as checkpoints know them */
+  char          checkpoint_file[PETSC_MAX_PATH_LEN], restart_file[PETSC_MAX_PATH_LEN];
+  PetscReal     checkpoint_time;  /* between checkpoints, as asked [s], < 0: default */
+  PetscInt      checkpoint_every; /* [fluid steps] */
+  PetscInt      checkpoint_step;  /* of the last one, -1: none */
+  PetscInt      builds_before;    /* list builds of the run that this program did not make itself */
+  PetscInt      rows, snapshots;  /* in the result file at the checkpoint */
+  char          run[PG_RUN_NAME]; /* of the result file */
+  PgEndingWatch watch;            /* its steps are fluid steps */
 };
 
 /* simulation.c: names of PgFluid */
@@ -90,22 +86,6 @@ PETSC_INTERN const char *const PgFluidWords[3];
 PETSC_INTERN PetscErrorCode PgRestartBegin(PgSimulation sim, PgCheckpoint *checkpoint);
 /* Lists, histories and state of the time of the checkpoint; with it the checkpoint is closed. */
 PETSC_INTERN PetscErrorCode PgRestartFinish(PgSimulation sim, PgCheckpoint *checkpoint);
-
-/* ending.c: signals, the limit of wall time, and who listens to what we print */
-typedef enum {
-  PG_ENDING_NONE       = 0,
-  PG_ENDING_CHECKPOINT = 1, /* write a checkpoint and go on */
-  PG_ENDING_INTERRUPT  = 2, /* end */
-  PG_ENDING_TERMINATE  = 4, /* write a checkpoint and end */
-  PG_ENDING_WALL_TIME  = 8, /* the same */
-  PG_ENDING_PIPE       = 16 /* the same, without words */
-} PgEnding;
-PETSC_INTERN PetscErrorCode PgEndingStart(PgSimulation sim);
-/* What has come up since the last time, as a sum of PgEnding; the same on all ranks. Collective. */
-PETSC_INTERN PetscErrorCode PgEndingLook(PgSimulation sim, int *ending);
-PETSC_INTERN PetscErrorCode PgEndingStop(PgSimulation sim);
-/* One line on how to go on, and the exit status of an early end. */
-PETSC_INTERN PetscErrorCode PgEndingTell(PgSimulation sim, int ending);
 
 /* postmortem.c: the state of a run that has failed, as a result file of its own. Collective. */
 PETSC_INTERN PetscErrorCode PgPostMortem(PgSimulation sim);

@@ -112,14 +112,12 @@ static PetscErrorCode Checkpoint(PgSimulation sim)
 
 static PetscErrorCode Loop(PgSimulation sim, int *ending)
 {
-  const int end = PG_ENDING_INTERRUPT | PG_ENDING_TERMINATE | PG_ENDING_WALL_TIME | PG_ENDING_PIPE;
-
   PetscFunctionBeginUser;
   *ending = PG_ENDING_NONE;
-  while (sim->step < sim->steps && !(*ending & end)) {
+  while (sim->step < sim->steps && !(*ending & PG_ENDING_ENDS)) {
     PetscCall(Advance(sim));
     PetscCall(PgMonitorStep(sim));
-    PetscCall(PgEndingLook(sim, ending));
+    PetscCall(PgEndingLook(&sim->watch, sim->step, ending));
     if (PgMonitorDue(sim, sim->checkpoint_every) || *ending & PG_ENDING_CHECKPOINT) PetscCall(Checkpoint(sim));
   }
   /* at the end, so that the run can be made longer; after Ctrl-C the user does not want to wait */
@@ -135,11 +133,15 @@ PetscErrorCode PgSimulationRun(PgSimulation sim)
 
   PetscFunctionBeginUser;
   PetscCall(PgMonitorStart(sim));
-  PetscCall(PgEndingStart(sim));
+  sim->watch.most = sim->guard_every;
+  PetscCall(PgEndingStart(&sim->watch, sim->comm, sim->step));
   err = Loop(sim, &ending);
-  PetscCall(PgEndingStop(sim));
+  PgEndingStop();
   PetscCall(err);
   PetscCall(PgMonitorEnd(sim));
-  if (ending) PetscCall(PgEndingTell(sim, ending));
+  if (ending)
+    PetscCall(PgEndingTell(sim->comm, ending, sim->step * sim->fluid_every, sim->time,
+                           sim->checkpoints ? sim->checkpoint_file : sim->restart_file,
+                           sim->checkpoint_step < 0 ? -1 : sim->checkpoint_step * sim->fluid_every));
   PetscFunctionReturn(0);
 }

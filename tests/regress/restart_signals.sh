@@ -61,6 +61,16 @@ wait $! && fail 'status 0 after INT'
 steps=$(sed -n 's/^ended early at step \([0-9]*\),.*which holds step \([0-9]*\)$/\1 \2/p' run.log)
 [ "${steps% *}" -gt "${steps#* }" ] || fail "USR1 has ended the run: $steps"
 
+# A run that has come to no checkpoint of its own yet goes on from where it came from.
+status=0
+# shellcheck disable=SC2086
+"$POROGRAIN" $run -output new.h5 -restart run.pgc -checkpoint new.pgc -checkpoint_every 1 >new.log 2>new.err &
+await new.csv 20
+kill -INT $!
+wait $! || status=$?
+[ "$status" = 5 ] && [ ! -e new.pgc ] || fail "status $status after INT, before the first checkpoint"
+expect_match "^ended early .*: go on with -restart run.pgc, which holds step ${steps#* }$" new.log
+
 # Wall time.
 status=0
 # shellcheck disable=SC2086

@@ -143,7 +143,7 @@ bad 'option -up_damping needs -up_inertia' -case up_terzaghi -up_damping 1
 bad 'option -up_cells: 2.5 is no number of cells' -case up_terzaghi -up_cells 2.5,3
 bad 'unknown option -up_yung 1e7; did you mean -up_young' -case up_terzaghi -up_yung 1e7
 bad 'option -up_mandel_force 1 is not read in this run, it needs -case up_mandel' -case up_terzaghi -up_mandel_force 1
-bad 'option -wall_time 5 is of no use to this case' -case up_terzaghi -wall_time 5
+bad 'option -guard_every 5 is of no use to this case' -case up_terzaghi -guard_every 5
 bad "option -up_pc_type: 'fieldsplitt' is not one of" -case up_terzaghi -up_pc_type fieldsplitt
 ranks='1 2'
 status=4
