@@ -86,7 +86,7 @@ static PetscErrorCode DirectoryOf(const char file[], char **directory)
   PetscFunctionReturn(0);
 }
 
-/* Whether the three files can be made where they are asked for: PETSC_ERR_FILE_OPEN. */
+/* Whether the three files can be made where they are asked for, and no other run makes them: PETSC_ERR_FILE_OPEN. */
 PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char xmf[], const char csv[])
 {
   const char *const places[] = {file, xmf, csv};
@@ -99,6 +99,9 @@ PetscErrorCode PgOutputCheckPlaces(MPI_Comm comm, const char file[], const char 
   PetscCall(DirectoryOf(file, &directory));
   err = PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "directory of the result file", directory,
                     rank ? NULL : WhyNotDirectory(directory));
+  if (!err)
+    err = PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "result file", file,
+                      !rank && PgResultIsBusy(file) ? "another run is writing it" : NULL);
   for (size_t k = 0; !err && k < PETSC_STATIC_ARRAY_LENGTH(places); k++)
     err = PgFileCheck(comm, PETSC_ERR_FILE_OPEN, "result file", places[k], rank ? NULL : PgWhyNotWritable(places[k]));
   PetscCall(PetscFree(directory));

@@ -193,7 +193,10 @@ static PetscErrorCode WriteCsv(PgOutput output, PetscInt rows, const PetscReal v
     PetscFunctionReturn(0);
   }
   output->csv_stream = fopen(output->csv, "a");
-  if (!output->csv_stream) *reason = strerror(errno);
+  if (output->csv_stream)
+    PgHistoryLock(output->csv_stream);
+  else
+    *reason = strerror(errno);
   PetscFunctionReturn(0);
 }
 

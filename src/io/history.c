@@ -124,7 +124,10 @@ PetscErrorCode PgHistoryOpenCsv(PgOutput output)
   PetscFunctionBeginUser;
   if (output->rank == 0) {
     output->csv_stream = fopen(output->csv, "w");
-    if (!output->csv_stream) reason = strerror(errno);
+    if (output->csv_stream)
+      PgHistoryLock(output->csv_stream);
+    else
+      reason = strerror(errno);
     PetscCall(PgHistoryHeaderText(output, &output->line));
   }
   PetscCall(PgFileCheck(output->comm, PETSC_ERR_FILE_OPEN, "cannot open history file", output->csv, reason));

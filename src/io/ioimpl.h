@@ -228,6 +228,9 @@ PETSC_INTERN PetscErrorCode PgProvenanceRestart(PgHdf *hdf, const char from[], P
 PETSC_INTERN PetscErrorCode PgRunName(MPI_Comm comm, char name[PG_RUN_NAME]);
 
 /* history.c */
+/* A run that writes a result file locks its history, and tells others so; rank 0. */
+PETSC_INTERN void           PgHistoryLock(FILE *csv);
+PETSC_INTERN PetscBool      PgResultIsBusy(const char file[]);
 PETSC_INTERN PetscErrorCode PgHistoryCreate(PgOutput output, PetscInt columns, const PgColumn column[]);
 PETSC_INTERN PetscErrorCode PgHistoryCreateDatasets(PgOutput output, PgHdf *hdf);
 PETSC_INTERN PetscErrorCode PgHistoryOpenCsv(PgOutput output);

@@ -11,7 +11,10 @@ PetscErrorCode PgResultRecover(MPI_Comm comm, const char file[], PetscBool *undo
   PetscFunctionBeginUser;
   *undone = PETSC_FALSE;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) reason = access(file, R_OK) ? strerror(errno) : PgJournalUndo(file, undone);
+  if (rank == 0 && PgResultIsBusy(file))
+    reason = "a run is writing it: there is nothing to recover before that has ended";
+  else if (rank == 0)
+    reason = access(file, R_OK) ? strerror(errno) : PgJournalUndo(file, undone);
   PetscCall(PgFileCheck(comm, PETSC_ERR_FILE_READ, "cannot recover result file", file, reason));
   PetscCallMPI(MPI_Bcast(undone, 1, MPIU_BOOL, 0, comm));
   PetscFunctionReturn(0);

@@ -4,8 +4,10 @@
 /* Rank 0: a file in the middle of a change may be in any state. */
 static const char *WhyNotReadable(const char file[])
 {
-  return PgJournalIsThere(file) ? "it is being written, or was when its run was killed: run porograin -recover FILE"
-                                : NULL;
+  if (!PgJournalIsThere(file)) return NULL;
+  return PgResultIsBusy(file)
+             ? "a run is writing to it just now: try again"
+             : "it is being written, or was when its run was killed: run porograin -recover FILE when that has ended";
 }
 
 /* Class and shape of the dataset as rows and columns; a failure is remembered in hdf. */
