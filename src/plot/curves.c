@@ -211,7 +211,7 @@ PetscErrorCode PgPlotHistory(PgPlot plot, const PgPlotSource *source)
   PetscCall(PgScriptPicture(&script));
   (void)fprintf(script.file,
                 "set multiplot layout %d,1 title '%s' noenhanced\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3\n"
-                "set tics nomirror\nset lmargin 11\nset rmargin 3\n",
+                "set tics nomirror\nset lmargin 11\nset rmargin 5\n",
                 (int)panels, PgScriptQuote(source->label, quoted, sizeof quoted));
   for (PetscInt p = 0; p < panels; p++)
     DrawPanel(script.file, source->stem, shown[p], there, (PetscBool)(p + 1 == panels));
