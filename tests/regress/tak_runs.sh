@@ -27,7 +27,8 @@ beside simulate mm 1 -options_file "$options/tak_two_elements_mm.opts" -tak_forc
 quick=(-options_file "$options/tak_block.opts" -dt 8e-3 -tak_block_every 4 -tak_block_cells 20,3 -tak_block_young 1e7 -up_damping 3 -end_time 12)
 beside simulate rest 1 "${quick[@]}"
 beside simulate ends 1 "${quick[@]}" -tak_block_corners false -bodies_coupling q
-beside eval 'bash "$SOURCE_DIR/tests/figures/tak_numbers.sh" sound sound >sound.out'
+sound() { bash "$SOURCE_DIR/tests/figures/tak_numbers.sh" sound sound >sound.out; }
+beside sound
 together
 
 # ---- 6.1 ----
