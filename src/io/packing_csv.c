@@ -203,6 +203,11 @@ static int ColumnRole(PgPackingCsv *csv, Span field)
     }
     return k;
   }
+  for (size_t k = 0; k < name.length; k++)
+    if (name.at[k] && strchr("; \t", name.at[k])) {
+      Refuse(csv, "unknown column '%s'; names and values are separated by commas, as in x,y,r", Quote(field, shown));
+      return -1;
+    }
   Refuse(csv, "unknown column '%s'; the names are x, y, r and, if velocities are given, vx, vy", Quote(field, shown));
   return -1;
 }

@@ -72,6 +72,8 @@ static const struct {
     {"1,2,3,4,5,6\n", "line 1: 6 values separated by commas"},
     {"x,y,r,vx,vy,q\n1,2,3,4,5,6\n", "line 1: 6 columns; at most x,y,r,vx,vy"},
     {"x,y,mass\n1,2,3\n", "line 1: unknown column 'mass'; the names are x, y, r"},
+    {"x;y;r\n1;2;3\n", "line 1: unknown column 'x;y;r'; names and values are separated by commas"},
+    {"x\ty\tr\n1\t2\t3\n", "line 1: unknown column 'x?y?r'; names and values are separated by commas"},
     {"x,y,vx,vy\n1,2,3,4\n", "line 1: there is no column r"},
     {"x,r\n1,2\n", "line 1: there is no column y"},
     {"x,y,r,vx\n1,2,3,4\n", "line 1: of vx and vy there must be both or none"},
