@@ -244,6 +244,9 @@ typedef struct {
 } PgEndingWatch;
 /* Reads -wall_time. Collective. */
 PETSC_EXTERN PetscErrorCode PgEndingSetFromOptions(PetscOptionItems *PetscOptionsObject, PgEndingWatch *watch);
+/* A program that is going to run something calls this first: USR1, which asks for a checkpoint, is kept for the run from here
+   on and does not end a program that is setting it up. */
+PETSC_EXTERN PetscErrorCode PgEndingExpect(void);
 /* From here to PgEndingStop() the signals TERM, INT and USR1 are kept for PgEndingLook(). `created` and `most` are set. */
 PETSC_EXTERN PetscErrorCode PgEndingStart(PgEndingWatch *watch, MPI_Comm comm, PetscInt step);
 /* What has come up since the last time, as a sum of PgEnding; the same on all ranks. After each step. Collective. */

@@ -22,6 +22,7 @@ static PetscErrorCode Run(int argc, char *argv[])
   if (!done) PetscCall(PgRefuseStrayArguments(argc, argv));
   if (!done) PetscCall(PgResultRecoverFromOptions(PETSC_COMM_WORLD, &done));
   if (done) PetscFunctionReturn(0);
+  PetscCall(PgEndingExpect());
   PetscCall(PgSimulationCreate(PETSC_COMM_WORLD, &simulation));
   PetscCall(PgSimulationSetFromOptions(simulation));
   PetscCall(PetscOptionsHasHelp(NULL, &help)); /* -help petsc: the objects have printed theirs */

@@ -18,7 +18,7 @@ static void Remember(int signal_number)
     came_terminate = 1;
 }
 
-enum { SIGNALS = 3 };
+enum { CHECKPOINT, INTERRUPT, TERMINATE, SIGNALS };
 static const int        signals[SIGNALS] = {SIGUSR1, SIGINT, SIGTERM};
 static struct sigaction before[SIGNALS];
 
@@ -31,20 +31,33 @@ PetscErrorCode PgEndingSetFromOptions(PetscOptionItems *PetscOptionsObject, PgEn
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode Keep(int k)
+{
+  struct sigaction action;
+
+  PetscFunctionBeginUser;
+  (void)memset(&action, 0, sizeof action);
+  action.sa_handler = Remember;
+  /* who presses Ctrl-C twice does not want to wait */
+  action.sa_flags = SA_RESTART | (signals[k] == SIGINT ? (int)SA_RESETHAND : 0);
+  (void)sigemptyset(&action.sa_mask);
+  PetscCheck(!sigaction(signals[k], &action, &before[k]), PETSC_COMM_SELF, PETSC_ERR_SYS, "no handler for signal %d",
+             signals[k]);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PgEndingExpect(void)
+{
+  PetscFunctionBeginUser;
+  PetscCall(Keep(CHECKPOINT));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PgEndingStart(PgEndingWatch *watch, MPI_Comm comm, PetscInt step)
 {
   PetscFunctionBeginUser;
-  came_checkpoint = came_interrupt = came_terminate = 0;
-  for (int k = 0; k < SIGNALS; k++) {
-    struct sigaction action;
-    (void)memset(&action, 0, sizeof action);
-    action.sa_handler = Remember;
-    /* who presses Ctrl-C twice does not want to wait */
-    action.sa_flags = SA_RESTART | (signals[k] == SIGINT ? (int)SA_RESETHAND : 0);
-    (void)sigemptyset(&action.sa_mask);
-    PetscCheck(!sigaction(signals[k], &action, &before[k]), PETSC_COMM_SELF, PETSC_ERR_SYS, "no handler for signal %d",
-               signals[k]);
-  }
+  came_interrupt = came_terminate = 0; /* a checkpoint may have been asked for while the run was set up */
+  for (int k = 0; k < SIGNALS; k++) PetscCall(Keep(k));
   watch->comm  = comm;
   watch->every = 1;
   watch->next  = step + 1;
@@ -55,6 +68,7 @@ PetscErrorCode PgEndingStart(PgEndingWatch *watch, MPI_Comm comm, PetscInt step)
 void PgEndingStop(void)
 {
   for (int k = 0; k < SIGNALS; k++) (void)sigaction(signals[k], &before[k], NULL);
+  came_checkpoint = 0;
 }
 
 /* Nobody reads standard output any more. */

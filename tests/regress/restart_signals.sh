@@ -61,6 +61,25 @@ wait $! && fail 'status 0 after INT'
 steps=$(sed -n 's/^ended early at step \([0-9]*\),.*which holds step \([0-9]*\)$/\1 \2/p' run.log)
 [ "${steps% *}" -gt "${steps#* }" ] || fail "USR1 has ended the run: $steps"
 
+# USR1 while a run is set up, which takes a while for 10^5 discs, asks for a checkpoint after the first steps.
+status=0
+"$POROGRAIN" -panel_columns 300 -panel_rows 300 -end_time 1 -output big.h5 -checkpoint big.pgc -checkpoint_every 1 >big.log 2>&1 &
+for _ in $(seq 1000); do # until the program catches it: bit 9 of the mask
+  caught=$(awk '/^SigCgt/ { print $2 }' /proc/$!/status)
+  [ $((0x$caught & 0x200)) -eq 0 ] || break
+  sleep 0.01
+done
+[ ! -e big.csv ] || fail 'USR1 is not kept before the run has been set up'
+kill -USR1 $!
+for _ in $(seq 600); do
+  if [ -e big.pgc ] || [ ! -e /proc/$! ]; then break; fi
+  sleep 0.1
+done
+kill -INT $! || { cat big.log >&2; fail 'USR1 has ended a run that was being set up'; }
+wait $! || status=$?
+[ "$status" = 5 ] && [ -e big.pgc ] || { cat big.log >&2; fail "status $status after USR1 and INT"; }
+rm big.*
+
 # A run that has come to no checkpoint of its own yet goes on from where it came from.
 status=0
 # shellcheck disable=SC2086
