@@ -102,7 +102,8 @@ PETSC_EXTERN PetscErrorCode PgWcsphView(PgWcsph wcsph, PetscViewer viewer);
 
 /* ---- stepping ---- */
 
-/* min(h/(4 c_0), h^2/(8 nu), sqrt(h/|g|)/4) [s]: a bound for dt that does not change during a run. */
+/* min(h/(4 c_0), h^2/(8 nu), sqrt(h/|g|)/4) [s]: a bound for dt that does not change during a run. Bodies whose contact is
+   stiffer than the liquid take the place of c_0 with c_0 times the root of that. */
 PETSC_EXTERN PetscErrorCode PgWcsphGetTimeStep(PgWcsph wcsph, PetscReal *dt);
 PETSC_EXTERN PetscErrorCode PgWcsphKick(PgWcsph wcsph, PetscReal dt);
 PETSC_EXTERN PetscErrorCode PgWcsphDrift(PgWcsph wcsph, PetscReal dt);

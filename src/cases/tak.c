@@ -71,9 +71,10 @@ PetscErrorCode PgTakChooseSteps(PgTak *tak)
   PetscFunctionBeginUser;
   PetscCall(PgWcsphGetTimeStep(tak->wcsph, &bound));
   if (tak->run.dt <= 0.0) tak->run.dt = bound;
-  PgInputCheck(tak->run.dt <= bound * (1.0 + 1e-9), tak->comm,
-               "option -dt %g s: particles of %g m with this viscosity and speed of sound bear %g s at most",
-               (double)tak->run.dt, (double)tak->dx, (double)bound);
+  PgInputCheck(
+      tak->run.dt <= bound * (1.0 + 1e-9), tak->comm,
+      "option -dt %g s: particles of %g m with this viscosity, speed of sound and -wcsph_contact bear %g s at most",
+      (double)tak->run.dt, (double)tak->dx, (double)bound);
   PetscCall(PgCaseRunChooseSteps(&tak->run, 1000));
   PetscFunctionReturn(0);
 }

@@ -147,6 +147,8 @@ PetscErrorCode PgWcsphGetTimeStep(PgWcsph w, PetscReal *dt)
 
   PetscFunctionBeginUser;
   *dt = 0.25 * h / w->c_0;
+  /* bodies of like density that meet ring as a liquid would with this factor on rho_0 c_0^2 */
+  if (w->added_bodies > 0 && w->contact > 1.0) *dt /= PetscSqrtReal(w->contact);
   if (w->mu > 0.0) *dt = PetscMin(*dt, 0.125 * h * h * w->rho_0 / w->mu);
   if (g > 0.0) *dt = PetscMin(*dt, 0.25 * PetscSqrtReal(h / g));
   PetscFunctionReturn(0);

@@ -88,6 +88,7 @@ bad() {
 bad '-tak_spacing' -case tak_two_elements -tak_spacing 0
 bad '-tak_wall_layers' -case tak_two_elements -tak_wall_layers 0
 bad '-dt 0.5 s: .* bear .* s at most' -case tak_two_elements -dt 0.5
+bad '-dt 0.001 s: .* bear 3e-05 s at most' -case tak_two_elements -wcsph_contact 1e6 -wcsph_sound_speed 0.2 -dt 0.001
 bad '-bodies_coupling' -case tak_two_elements -bodies_coupling none
 bad '-tak_block_poisson' -case tak_block -tak_block_poisson 0.5
 bad '-tak_block_cells' -case tak_block -tak_block_cells 2.5,3
