@@ -426,6 +426,12 @@ static PetscErrorCode Frame(PgPlot plot, const PgPlotSource *source, PetscInt fr
   PetscFunctionReturn(0);
 }
 
+/* A length which at the size of the pictures is an even number of pixels, as video encoders want. */
+static PetscReal Even(PgPlot plot, PetscReal pixels)
+{
+  return 2.0 * PetscFloorReal(0.5 * plot->size * pixels) / plot->size;
+}
+
 PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
 {
   const PgPlotField *field  = PgPlotFieldIn(source, plot->film);
@@ -442,11 +448,11 @@ PetscErrorCode PgPlotFilm(PgPlot plot, const PgPlotSource *source)
     PetscCall(Frame(plot, source, i, base, field, &range, low, high, &count));
   PgPlotRangeFinish(field->is_signed, &range);
   step = PgPlotRound((range.high - range.low) / 6.0);
-  bar  = 2.0 * PetscCeilReal(4.0 * (PetscReal)PetscMax(8, PgPlotBarLabelsOf(&range, step).length));
-  /* one scale and one frame for all; an even number of pixels, as video encoders want */
+  bar  = PG_PLOT_CHARACTER * (PetscReal)PetscMax(8, PgPlotBarLabelsOf(&range, step).length);
+  /* one scale and one frame for all */
   PgPlotPixels(low, high, 600.0, pixels);
-  PetscCall(PgScriptBegin(plot, base, 2.0 * PetscFloorReal(0.5 * pixels[0]) + 156.0 + bar,
-                          2.0 * PetscFloorReal(0.5 * pixels[1]) + 120.0, PETSC_TRUE, &script));
+  PetscCall(PgScriptBegin(plot, base, Even(plot, pixels[0] + 156.0 + bar), Even(plot, pixels[1] + 120.0), PETSC_TRUE,
+                          &script));
   PgPlotAxes(script.file, low, high);
   (void)fprintf(script.file, "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\n");
   PetscCall(PgScriptPalette(&script, field->is_signed, 0, &range));

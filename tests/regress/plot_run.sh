@@ -101,6 +101,13 @@ for f in rotation fields; do
 done
 [ "$(cat start/*.gp | grep -c '0 everywhere')" -eq 2 ] || fail 'which fields are 0'
 
+# Frames of a film have an even number of pixels each way, whatever their size: encoders want it.
+for size in 0.3 0.45 0.75 1; do
+  "$POROGRAIN_PLOT" dry.h5 -figures even -plot_fields rotation -plot_film rotation -plot_size $size -plot_gnuplot none >even.out
+  sed -n 's/.*terminal png size \([0-9]*[02468]\),\([0-9]*[02468]\) .*/even/p' even/dry-film-rotation.gp | grep -q even ||
+    fail "frames of a film of size $size: $(grep 'terminal png size' even/dry-film-rotation.gp)"
+done
+
 # A continuum: cells where they are with their displacement magnified, all fields, the settlement, a film.
 "$POROGRAIN" -options_file "$SOURCE_DIR/options/up_footing.opts" -up_cells 8,8 -output ground.h5 >ground.log 2>&1 ||
   fail "up_footing: $(tail -n 3 ground.log)"
