@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tak_numbers.sh FOLDER [means] [scaling] [sound]: numbers of docs/tak2013.md on the examples of Tak, Park & Park (2013), from
 # runs in FOLDER; all three without further words. Environment: POROGRAIN, SOURCE_DIR. FIGURES_KEEP=yes takes results that
-# are in FOLDER as they are. `means` takes a minute, `scaling` ten, `sound` some seconds, on one core.
+# are in FOLDER as they are. `means` takes a minute, `scaling` some, `sound` some seconds, on one core.
 set -euo pipefail
 mkdir -p -- "$1"
 cd -- "$1"

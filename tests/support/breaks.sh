@@ -25,6 +25,7 @@ dem_lammps ; src/dem/contact_loop.c ; s/ny) + spin;/ny) + 0.9999 * spin;/ ; slid
 dem_lammps ; src/dem/observables.c ; s/contact = value\[0\];/contact = 1.00001 * value[0];/ ; load 0.001 % higher, discs as they are
 operator_mms ; src/sph/correction.c ; s/{my\[1\], -mx\[1\]}/{my[1], mx[1]}/ ; wrong sign in the inverse of the correction matrix
 operator_mms ; src/sph/coefficient_loop.c ; s/= 2.0 \* f \* r2/= 2.01 * f * r2/ ; weights of the Laplacian 0.5 % larger
+operator_mms ; src/sph/kernel.h ; s/return -5\.0 \* PG_QUINTIC/return -5.05 * PG_QUINTIC/ ; slope of the quintic spline 1 % larger
 pressure_mms ; src/sph/coefficient_loop.c ; s/= 2.0 \* f \* r2/= 2.01 * f * r2/ ; weights of the Laplacian 0.5 % larger
 predictor ; src/pore/step.c ; s/b00 = 1.0 + dt_f \* g\[0\]/b00 = 1.0 + 0.99 * dt_f * g[0]/ ; matrix B 1 % off in one place
 water_bed_darcy ; src/pore/darcy.c ; s/s.v\[i\] - k_p \*/s.v[i] - 1.001 * k_p */ ; Darcy velocity 0.1 % larger
