@@ -182,7 +182,7 @@ PETSC_INTERN PetscErrorCode PgScriptPalette(PgScript *script, PetscBool is_signe
 
 /* ---- drawing.c: pieces of pictures of discs ---- */
 
-#define PG_PLOT_CHARACTER 8.0   /* width of a digit in 11 points, and a little [pixels] */
+#define PG_PLOT_CHARACTER 9.4   /* width of a digit in 11 points, in a PNG; in an SVG it is 7 [pixels] */
 #define PG_PLOT_SHEET     380.0 /* longer side of the axes on a sheet [pixels]; no picture has smaller ones */
 /* Labels of a colour bar: every `step`, with as many digits as tell neighbours apart. */
 typedef struct {

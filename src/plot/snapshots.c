@@ -239,7 +239,7 @@ static PetscErrorCode Single(Sheet *s, PetscInt f)
 
 /* Places on a sheet, in pixels from its upper left corner: cells of equal size, each with room for the labels of
    its axes on the left and below, a title above, and a colour bar with its labels on the right. */
-enum { LABEL = 58, LEAST_LEFT = 82, RIGHT = 44, ABOVE = 50, BELOW = 62, HEAD = 34 };
+enum { LABEL = 54, LEAST_LEFT = 82, RIGHT = 44, ABOVE = 50, BELOW = 62, HEAD = 34 };
 typedef struct {
   PetscInt  columns, rows;
   PetscReal left, pixels[2], bar; /* left: of the axes; bar: for its labels */
