@@ -59,6 +59,9 @@ PETSC_EXTERN PetscErrorCode PgReportRun(MPI_Comm comm, const char format[], ...)
    often only the consequence. find() writes the cause, or leaves `cause` empty; it is collective and must not fail with
    PgRunError() itself. NULL: nobody. */
 PETSC_EXTERN PetscErrorCode PgSetCause(PetscErrorCode (*find)(void *context, char cause[], size_t size), void *context);
+/* The step that is being done and the time at its end [s], for failures of what does not know it; step < 0: none. The same
+   on all ranks. */
+PETSC_EXTERN void PgSetNow(PetscInt step, PetscReal time);
 
 /* Starts MPI (unless the caller did) and PETSc with porograin's error handler (one readable message instead of a call
    stack; the stack comes back with -error_stack) and its log stages. Files of options are looked at first: a missing

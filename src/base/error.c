@@ -49,7 +49,8 @@ PetscErrorCode PgHandleError(MPI_Comm comm, int line, const char *function, cons
   return code;
 }
 
-static PetscErrorCode Report(MPI_Comm comm, const char cause[], const char format[], va_list arguments)
+static PetscErrorCode Report(MPI_Comm comm, const char cause[], const char after[], const char format[],
+                             va_list arguments)
 {
   PetscMPIInt  rank;
   char         text[4096];
@@ -61,6 +62,7 @@ static PetscErrorCode Report(MPI_Comm comm, const char cause[], const char forma
   if (rank == 0) {
     (void)snprintf(text, sizeof text, "%s", cause);
     (void)vsnprintf(text + used, sizeof text - used, format, arguments);
+    (void)snprintf(text + strlen(text), sizeof text - strlen(text), "%s", after);
     PrintError(text);
   }
   PetscFunctionReturn(0);
@@ -73,7 +75,7 @@ PetscErrorCode PgReport(MPI_Comm comm, const char format[], ...)
 
   PetscFunctionBeginUser;
   va_start(arguments, format);
-  err = Report(comm, "", format, arguments);
+  err = Report(comm, "", "", format, arguments);
   va_end(arguments);
   PetscFunctionReturn(err);
 }
@@ -89,17 +91,28 @@ PetscErrorCode PgSetCause(PetscErrorCode (*find)(void *context, char cause[], si
   PetscFunctionReturn(0);
 }
 
+static PetscInt  now_step = -1; /* none */
+static PetscReal now_time;
+
+void PgSetNow(PetscInt step, PetscReal time)
+{
+  now_step = step;
+  now_time = time;
+}
+
 PetscErrorCode PgReportRun(MPI_Comm comm, const char format[], ...)
 {
   PetscErrorCode err;
   va_list        arguments;
-  char           cause[2048] = "";
+  char           cause[2048] = "", now[96] = "";
 
   PetscFunctionBeginUser;
   if (find_cause) PetscCall((*find_cause)(cause_context, cause, sizeof cause - 32));
   if (cause[0]) (void)snprintf(cause + strlen(cause), 32, ". It shows as: ");
+  if (now_step >= 0)
+    (void)snprintf(now, sizeof now, "; in step %" PetscInt_FMT ", time %g s", now_step, (double)now_time);
   va_start(arguments, format);
-  err = Report(comm, cause, format, arguments);
+  err = Report(comm, cause, now, format, arguments);
   va_end(arguments);
   PetscFunctionReturn(err);
 }

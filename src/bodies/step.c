@@ -185,8 +185,11 @@ PetscErrorCode PgBodiesKick(PgBodies bodies, PetscReal dt)
     }
     for (PetscInt i = 0; i < 2 * b->nodes; i++)
       if (!isfinite(b->x[i]) || !isfinite(b->v[i]))
-        PgRunError(bodies->comm, "body %" PetscInt_FMT ", node %" PetscInt_FMT ": not finite; give a smaller -dt", k,
-                   i / 2);
+        PgRunError(bodies->comm,
+                   "body %" PetscInt_FMT ", node %" PetscInt_FMT
+                   " at (%g, %g) m, velocity (%g, %g) m/s: not finite; give a smaller -dt",
+                   k, i / 2, (double)b->x[i / 2 * 2], (double)b->x[i / 2 * 2 + 1], (double)b->v[i / 2 * 2],
+                   (double)b->v[i / 2 * 2 + 1]);
   }
   PetscFunctionReturn(0);
 }

@@ -96,13 +96,21 @@ PetscErrorCode PgTakStart(PgTak *tak, const char output[], PetscInt columns, con
 
 PetscErrorCode PgTakStep(PgTak *tak)
 {
+  PetscErrorCode err;
+
   PetscFunctionBeginUser;
-  PetscCall(PgBodiesKickDrift(tak->bodies, tak->run.dt));
+  PgSetNow(tak->step + 1, (PetscReal)(tak->step + 1) * tak->run.dt);
+  err = PgBodiesKickDrift(tak->bodies, tak->run.dt);
+  PgSetNow(-1, 0.0);
+  PetscCall(err);
   PetscCall(PgWcsphKick(tak->wcsph, 0.5 * tak->run.dt));
   PetscCall(PgWcsphDrift(tak->wcsph, tak->run.dt));
   PetscCall(PgWcsphForces(tak->wcsph));
   PetscCall(PgBodiesCouple(tak->bodies, tak->wcsph));
-  PetscCall(PgBodiesKick(tak->bodies, tak->run.dt));
+  PgSetNow(tak->step + 1, (PetscReal)(tak->step + 1) * tak->run.dt);
+  err = PgBodiesKick(tak->bodies, tak->run.dt);
+  PgSetNow(-1, 0.0);
+  PetscCall(err);
   PetscCall(PgWcsphKick(tak->wcsph, 0.5 * tak->run.dt));
   tak->step++;
   PetscFunctionReturn(0);

@@ -248,8 +248,8 @@ PetscErrorCode PgFemSolve(PgFem fem)
   if (reason <= 0 || !(fem->stats.residual <= PetscMax(10.0 * rtol, 1e-9)))
     PgRunError(fem->comm,
                "up: the solver ended with %s after %" PetscInt_FMT
-               " iterations, relative residual %g (rtol %g), step %" PetscInt_FMT " of the continuum",
+               " iterations, relative residual %g (rtol %g), step %" PetscInt_FMT " of the continuum, after time %g s",
                KSPConvergedReasons[reason], fem->stats.iterations, (double)fem->stats.residual, (double)rtol,
-               fem->step + 1);
+               fem->step + 1, (double)fem->time);
   PetscFunctionReturn(0);
 }

@@ -76,9 +76,13 @@ static PetscErrorCode WithCause(PgSimulation sim, PetscErrorCode (*act)(PgSimula
 
 PetscErrorCode PgSimulationStep(PgSimulation sim)
 {
+  PetscErrorCode err;
+
   PetscFunctionBeginUser;
-  PetscCall(WithCause(sim, Step));
-  PetscFunctionReturn(0);
+  PgSetNow((sim->step + 1) * sim->fluid_every, (PetscReal)(sim->step + 1) * sim->dt * (PetscReal)sim->fluid_every);
+  err = WithCause(sim, Step);
+  PgSetNow(-1, 0.0);
+  PetscFunctionReturn(err);
 }
 
 PetscErrorCode PgSimulationGuard(PgSimulation sim)

@@ -65,7 +65,7 @@ trips velocity "the water has blown up at step [0-9]+, time [-0-9.e]+ s: $disc h
 trips porosity "step [0-9]+, time [-0-9.e]+ s: the porosity of [0-9]+ of 127 discs is out of range .* the first is $disc" \
   -porosity_min 0.2
 begun=ns fluid=$ns
-trips diverged "pressure: the solver stopped with DIVERGED_ITS after 1 iterations, .* largest at $disc: residual" \
+trips diverged "pressure: the solver stopped with DIVERGED_ITS after 1 iterations, .* largest at $disc: residual .*; in step [0-9]+, time [-0-9.e]+ s\$" \
   -pressure_ksp_max_it 1 -pressure_ksp_rtol 1e-12
 together
 
