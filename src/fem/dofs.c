@@ -61,7 +61,8 @@ static PetscErrorCode NumberCells(PgFem fem)
   PetscFunctionBeginUser;
   PetscCall(DMPlexGetDepthStratum(fem->dm, 0, &first_node, NULL));
   PetscCall(DMPlexGetHeightStratum(fem->dm, 1, &first_edge, NULL));
-  PetscCall(PetscMalloc2(fem->cells * fem->dofs, &fem->dof, fem->cells * fem->dofs, &fem->index));
+  /* one more: whether there is an array says whether all is set up, on a rank without cells, too */
+  PetscCall(PetscMalloc2(fem->cells * fem->dofs + 1, &fem->dof, fem->cells * fem->dofs + 1, &fem->index));
   for (PetscInt c = 0; c < fem->cells; c++) {
     PetscInt *dof = fem->dof + c * fem->dofs, at;
     for (PetscInt a = 0; a < fem->un; a++) {

@@ -25,7 +25,13 @@ done
 for n in 1 2 4; do
   beside simulate ranks$n $n -options_file "$options/up_mandel.opts" -up_element q2q1 -up_cells 10,7 -end_time 2
 done
+for n in 1 4; do # ranks without a cell
+  beside simulate few$n $n -case up_terzaghi -up_cells 1,2 -end_time 0.2
+  beside simulate block$n $n -case tak_block -tak_block_cells 1,1 -dt 4e-3 -end_time 0.02
+done
 together
+expect_close "$(last few4.csv displacement)" "$(last few1.csv displacement)" 1e-12 # of 1e-4 m, by a solver to 1e-10
+expect_close "$(last block4.csv pressure_liquid)" "$(last block1.csv pressure_liquid)" 1e-9
 
 # ---- shipped files ----
 # ten seconds are no multiple of Mandel's step: the last one is cut
