@@ -335,9 +335,9 @@ static PetscErrorCode Report(MPI_Comm comm, const PgPacking *packing, const PgBo
     PetscCall(PetscPrintf(comm, "  no disc touches another\n"));
   else
     PetscCall(PetscPrintf(
-        comm, "  %lld pairs touch; %s %.3g of the smaller radius, discs %" PetscInt_FMT " and %" PetscInt_FMT "\n",
-        (long long)f->touching, f->overlap > 0 ? "largest overlap" : "smallest gap", (double)PetscAbsReal(f->overlap),
-        f->pair[0], f->pair[1]));
+        comm, "  %lld pair%s; %s %.3g of the smaller radius, discs %" PetscInt_FMT " and %" PetscInt_FMT "\n",
+        (long long)f->touching, f->touching == 1 ? " touches" : "s touch",
+        f->overlap > 0 ? "largest overlap" : "smallest gap", (double)PetscAbsReal(f->overlap), f->pair[0], f->pair[1]));
   PetscFunctionReturn(0);
 }
 

@@ -50,8 +50,8 @@ PetscErrorCode PgNeighborsView(PgNeighbors neighbors, PetscViewer viewer)
     count[0] = neighbors->interior + neighbors->contacts;
     if (neighbors->rows_wanted) count[1] = neighbors->row_ptr[owned];
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 2, MPI_INT64_T, MPI_SUM, PgParticlesComm(neighbors->particles)));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "skin %g m, %" PetscInt_FMT " builds\n", (double)neighbors->skin,
-                                     neighbors->builds));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "skin %g m, %" PetscInt_FMT " build%s\n", (double)neighbors->skin,
+                                     neighbors->builds, neighbors->builds == 1 ? "" : "s"));
     PetscCall(PetscViewerASCIIPrintf(viewer, "%lld possible contacts, %lld row entries\n", (long long)(count[0] / 2),
                                      (long long)count[1]));
   }

@@ -312,7 +312,8 @@ PetscErrorCode PgSimulationRunCase(PgSimulation sim, PetscBool *done)
   *done = (PetscBool)(sim->case_info->run != NULL);
   if (!*done) PetscFunctionReturn(0);
   PetscCallMPI(MPI_Comm_size(sim->comm, &size));
-  PetscCall(PetscPrintf(sim->comm, "porograin %s: case %s on %d ranks\n", PG_VERSION, sim->case_info->name, (int)size));
+  PetscCall(PetscPrintf(sim->comm, "porograin %s: case %s on %d rank%s\n", PG_VERSION, sim->case_info->name, (int)size,
+                        size == 1 ? "" : "s"));
   PetscCall(sim->case_info->run(sim->comm, sim->case_context, sim->output_file));
   PetscFunctionReturn(0);
 }
@@ -385,8 +386,9 @@ PetscErrorCode PgSimulationView(PgSimulation sim, PetscViewer viewer)
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_size(sim->comm, &size));
   PetscCall(PgParticlesGetSizes(sim->particles, NULL, NULL, &global));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "porograin %s: case %s, %" PetscInt_FMT " discs on %d ranks, fluid %s\n",
-                                   PG_VERSION, sim->case_info->name, global, (int)size, PgFluidWords[sim->fluid]));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "porograin %s: case %s, %" PetscInt_FMT " discs on %d rank%s, fluid %s\n",
+                                   PG_VERSION, sim->case_info->name, global, (int)size, size == 1 ? "" : "s",
+                                   PgFluidWords[sim->fluid]));
   PetscCall(PetscViewerASCIIPrintf(viewer, "time step %.4e s, %.1f %% of the critical %.4e s", (double)sim->dt,
                                    100.0 * (double)(sim->dt / sim->dt_critical), (double)sim->dt_critical));
   if (sim->pore)

@@ -367,11 +367,12 @@ static PetscErrorCode PrintHead(PgStudy study, const PgSolverList *list)
   PetscCallMPI(MPI_Comm_size(study->comm, &size));
   PetscCall(PetscPrintf(
       study->comm,
-      "%" PetscInt_FMT " solvers of %s, rtol %.4g %s, zero guess; %d ranks, %s time, medians of %" PetscInt_FMT
+      "%" PetscInt_FMT " solver%s of %s, rtol %.4g %s, zero guess; %d rank%s, %s time, medians of %" PetscInt_FMT
       " runs or of as many as fit into %.4g s\n",
-      list->count, list->file, (double)study->solve.rtol,
+      list->count, list->count == 1 ? "" : "s", list->file, (double)study->solve.rtol,
       study->system.preconditioned_norm ? "in PETSc's default norm (NOT that of the residual)" : "on ||b - A x||/||b||",
-      (int)size, size > 1 ? "wall" : "CPU", study->solve.repeats, (double)study->solve.repeat_seconds));
+      (int)size, size == 1 ? "" : "s", size > 1 ? "wall" : "CPU", study->solve.repeats,
+      (double)study->solve.repeat_seconds));
   PetscFunctionReturn(0);
 }
 
