@@ -1,19 +1,50 @@
 /* Cell list of one rank, by counting sort. */
 #include "neighborsimpl.h"
 
+/* Discs outside of the cells belong to the nearest one: partners stay in cells that touch. */
 static inline PetscInt CellIndex(PetscReal x, PetscReal low, PetscReal per_length, PetscInt cells)
 {
-  const PetscInt i = (PetscInt)((x - low) * per_length);
+  const PetscReal i = (x - low) * per_length;
 
-  return i < 0 ? 0 : i >= cells ? cells - 1 : i;
+  return i <= 0 ? 0 : i >= (PetscReal)cells ? cells - 1 : (PetscInt)i;
+}
+
+static PetscBool TooMany(PetscInt n, const PetscReal extent[2], PetscReal cell)
+{
+  return (PetscBool)((extent[0] / cell + 1) * (extent[1] / cell + 1) > 4 * (PetscReal)n + 64);
+}
+
+/* The place and size of a box that leaves a growing share of the discs outside, up to an eighth on each side, until its
+   cells are few enough: a disc that has flown off must not make all others share a cell. */
+static PetscErrorCode TrimBox(PetscInt n, const PetscReal position[], PetscReal cell, PetscReal low[2],
+                              PetscReal extent[2])
+{
+  PetscReal *sorted[2];
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscMalloc2(n, &sorted[0], n, &sorted[1]));
+  for (int d = 0; d < 2; d++) {
+    for (PetscInt i = 0; i < n; i++) sorted[d][i] = position[2 * i + d];
+    PetscCall(PetscSortReal(n, sorted[d]));
+  }
+  for (PetscInt share = 1024; share >= 8 && TooMany(n, extent, cell); share /= 2) {
+    const PetscInt out = (n + share - 1) / share;
+    for (int d = 0; d < 2 && 2 * out < n; d++) {
+      low[d]    = sorted[d][out];
+      extent[d] = sorted[d][n - 1 - out] - low[d];
+    }
+  }
+  PetscCall(PetscFree2(sorted[0], sorted[1]));
+  PetscFunctionReturn(0);
 }
 
 /* Cells a little wider than `reach`, so that rounding cannot put partners two cells apart; wider still where
    the discs are so scattered that there would be many more cells than discs. */
-static void SetCells(PetscInt n, const PetscReal position[], PetscReal reach, PgCellList *list)
+static PetscErrorCode SetCells(PetscInt n, const PetscReal position[], PetscReal reach, PgCellList *list)
 {
   PetscReal low[2] = {0, 0}, extent[2] = {0, 0}, cell = reach * (1 + 4 * PETSC_SQRT_MACHINE_EPSILON);
 
+  PetscFunctionBeginUser;
   for (int d = 0; d < 2 && n > 0; d++) {
     PetscReal high = position[d];
     low[d]         = position[d];
@@ -23,12 +54,14 @@ static void SetCells(PetscInt n, const PetscReal position[], PetscReal reach, Pg
     }
     extent[d] = high - low[d];
   }
-  while ((extent[0] / cell + 1) * (extent[1] / cell + 1) > 4 * (PetscReal)n + 64) cell *= 1.25;
+  if (TooMany(n, extent, cell)) PetscCall(TrimBox(n, position, cell, low, extent));
+  while (TooMany(n, extent, cell)) cell *= 1.25;
   for (int d = 0; d < 2; d++) {
     list->low[d]   = low[d];
     list->cells[d] = (PetscInt)(extent[d] / cell) + 1;
   }
   list->per_length = 1 / cell;
+  PetscFunctionReturn(0);
 }
 
 static inline PetscInt CellOf(const PgCellList *list, const PetscReal position[2])
@@ -45,7 +78,7 @@ PetscErrorCode PgCellListCreate(PetscInt n, const PetscReal position[], const Pe
   PetscInt cells;
 
   PetscFunctionBeginUser;
-  SetCells(n, position, reach, list);
+  PetscCall(SetCells(n, position, reach, list));
   cells = list->cells[0] * list->cells[1];
   PetscCall(PetscCalloc1(cells + 2, &list->start));
   PetscCall(PetscMalloc1(n, &list->disc));

@@ -148,7 +148,25 @@ static void CheckLists(PgParticles particles, PgNeighbors neighbors, PetscReal l
   OK(PetscFree(r));
 }
 
-static void Run(const Cloud *discs, PetscReal length, PetscInt least_contacts)
+/* Puts the first discs far off, two and two side by side, the last pair further than whole numbers of cells reach. */
+static void FlyOff(PgParticles particles)
+{
+  static const PetscReal far[3][2] = {{900.0, -400.0}, {-2e5, 0.4}, {3e12, 3e12}};
+  const PetscInt        *id;
+  PetscInt               owned;
+  PetscReal             *position;
+
+  OK(PgParticlesGetSizes(particles, &owned, NULL, NULL));
+  OK(PgParticlesGetIds(particles, &id));
+  OK(PgParticlesGetArray(particles, PG_POSITION, &position));
+  for (PetscInt i = 0; i < owned; i++) {
+    if (id[i] >= 6) continue;
+    position[2 * i]     = far[id[i] / 2][0] + 0.01 * (PetscReal)(id[i] % 2);
+    position[2 * i + 1] = far[id[i] / 2][1];
+  }
+}
+
+static void Run(const Cloud *discs, PetscReal length, PetscBool some_fly, PetscInt least_contacts)
 {
   PgParticles particles;
   PgNeighbors neighbors;
@@ -163,6 +181,7 @@ static void Run(const Cloud *discs, PetscReal length, PetscInt least_contacts)
   OK(PgNeighborsRequestRows(neighbors, 3.5, 1.0));
   OK(PgNeighborsRequestRows(neighbors, 2.5, 2.5));
   CreateCloud(discs, particles);
+  if (some_fly) FlyOff(particles);
   for (unsigned step = 0; step < 4; step++) {
     if (step == 2) OK(PgParticlesForceMigration(particles, 1));
     OK(PgNeighborsBuild(neighbors));
@@ -180,13 +199,13 @@ static void Run(const Cloud *discs, PetscReal length, PetscInt least_contacts)
 static void lists_are_complete(void **state)
 {
   (void)state;
-  Run(&cloud, 0, 200);
+  Run(&cloud, 0, PETSC_FALSE, 200);
 }
 
 static void periodic_lists_are_complete(void **state)
 {
   (void)state;
-  Run(&cloud, period, 200);
+  Run(&cloud, period, PETSC_FALSE, 200);
 }
 
 /* A period of just over three cells: every cell is next to every other one. */
@@ -195,7 +214,14 @@ static void short_period(void **state)
   const Cloud narrow_cloud = {120, {0.4, 0.2}, {0.35, 0.7}, 0.014};
 
   (void)state;
-  Run(&narrow_cloud, 0.35, 30);
+  Run(&narrow_cloud, 0.35, PETSC_FALSE, 30);
+}
+
+/* Discs that have left all others behind keep their partners, and the others theirs. */
+static void discs_that_have_flown_off(void **state)
+{
+  (void)state;
+  Run(&cloud, 0, PETSC_TRUE, 200);
 }
 
 /* More ranks than discs. */
@@ -204,7 +230,7 @@ static void few_discs(void **state)
   const Cloud three = {3, {0.1, 0.2}, {0.02, 0.02}, 0.014};
 
   (void)state;
-  Run(&three, 0, 6);
+  Run(&three, 0, PETSC_FALSE, 6);
 }
 
 static void no_discs(void **state)
@@ -252,9 +278,13 @@ static void radii_must_be_positive(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(lists_are_complete), cmocka_unit_test(periodic_lists_are_complete),
-    cmocka_unit_test(short_period),       cmocka_unit_test(few_discs),
-    cmocka_unit_test(no_discs),           cmocka_unit_test(radii_must_be_positive),
+    cmocka_unit_test(lists_are_complete),
+    cmocka_unit_test(periodic_lists_are_complete),
+    cmocka_unit_test(short_period),
+    cmocka_unit_test(few_discs),
+    cmocka_unit_test(discs_that_have_flown_off),
+    cmocka_unit_test(no_discs),
+    cmocka_unit_test(radii_must_be_positive),
 };
 
 TEST_MAIN(tests)
