@@ -1,5 +1,6 @@
 /* Cell list of one rank, by counting sort. */
 #include "neighborsimpl.h"
+#include <stdlib.h>
 
 /* Discs outside of the cells belong to the nearest one: partners stay in cells that touch. */
 static inline PetscInt CellIndex(PetscReal x, PetscReal low, PetscReal per_length, PetscInt cells)
@@ -14,6 +15,13 @@ static PetscBool TooMany(PetscInt n, const PetscReal extent[2], PetscReal cell)
   return (PetscBool)((extent[0] / cell + 1) * (extent[1] / cell + 1) > 4 * (PetscReal)n + 64);
 }
 
+static int Ascending(const void *a, const void *b)
+{
+  const PetscReal x = *(const PetscReal *)a, y = *(const PetscReal *)b;
+
+  return (x > y) - (x < y);
+}
+
 /* The place and size of a box that leaves a growing share of the discs outside, up to an eighth on each side, until its
    cells are few enough: a disc that has flown off must not make all others share a cell. */
 static PetscErrorCode TrimBox(PetscInt n, const PetscReal position[], PetscReal cell, PetscReal low[2],
@@ -25,7 +33,7 @@ static PetscErrorCode TrimBox(PetscInt n, const PetscReal position[], PetscReal 
   PetscCall(PetscMalloc2(n, &sorted[0], n, &sorted[1]));
   for (int d = 0; d < 2; d++) {
     for (PetscInt i = 0; i < n; i++) sorted[d][i] = position[2 * i + d];
-    PetscCall(PetscSortReal(n, sorted[d]));
+    qsort(sorted[d], (size_t)n, sizeof **sorted, Ascending); /* PetscSortReal() does not bear equal places */
   }
   for (PetscInt share = 1024; share >= 8 && TooMany(n, extent, cell); share /= 2) {
     const PetscInt out = (n + share - 1) / share;

@@ -3,19 +3,24 @@
 #   cmake --build build --target bench        (or: cmake --preset release && cmake --build --preset bench)
 # Prints a table and writes bench.csv in the working folder. Measurements alternate; the median of BENCH_ROUNDS (3) counts.
 #   BENCH_COLUMNS="25 100 316 707"   panels: 1249, 19999, 199711, 999697 discs
-#   BENCH_PARTS="dem memory panel pressure assembly ranks million"
+#   BENCH_PARTS="dem memory panel curve pressure assembly ranks million"
 # Times are CPU seconds on one rank, wall seconds where ranks are compared: these mean something on a quiet machine only.
 set -euo pipefail
 export LC_ALL=C OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none OMP_NUM_THREADS=1
 rounds=${BENCH_ROUNDS:-3}
 columns=${BENCH_COLUMNS:-25 100 316 707}
-parts=" ${BENCH_PARTS:-dem memory panel pressure assembly ranks million} "
+parts=" ${BENCH_PARTS:-dem memory panel curve pressure assembly ranks million} "
 options=$SOURCE_DIR/options
 here=$SOURCE_DIR/tests/bench
 mpiexec=${MPIEXEC:-mpiexec}
-rm -rf values && mkdir values
-[ -x "$BENCH/measure" ] || { echo "bench.sh: $BENCH/measure is not built: cmake --build BUILD --target bench" >&2 && exit 1; }
+rm -rf values failures && mkdir values
+for tool in "$BENCH"/{measure,bare_loop,triad,plain_petsc} "$POROGRAIN" "$POROGRAIN_STUDY"; do
+  [ -x "$tool" ] || { echo "bench.sh: $tool is not built: cmake --build BUILD --target bench" >&2 && exit 1; }
+done
+for part in $parts; do
+  case $part in dem | memory | panel | curve | pressure | assembly | ranks | million) ;; *) echo "bench.sh: BENCH_PARTS has no $part" >&2 && exit 1 ;; esac
+done
 grep -v '^-output' "$options/panel_case1_ns.opts" >quiet.opts # no result file: its strains need memory
 echo "what,unit,goal,measured,yardstick,yardstick value,ratio" >bench.csv
 
@@ -34,9 +39,20 @@ row() {
 }
 wants() { [[ $parts == *" $1 "* ]]; }
 
-cpu() { "$BENCH/measure" "$@" | cut -d' ' -f1; }
-wall() { "$BENCH/measure" "$@" | cut -d' ' -f2; }
-rss() { "$BENCH/measure" "$@" | cut -d' ' -f3; }
+# Of a command that fails nothing is measured, and the end of this script says so.
+measured() { # FIELD COMMAND...
+  local field=$1 line
+  shift
+  line=$("$BENCH/measure" "$@" 2>measure.err) || {
+    echo "failed: $*" | tee -a failures >&2
+    tail -n 3 measure.err >&2
+    return 1
+  }
+  echo "$line" | cut -d' ' -f"$field"
+}
+cpu() { measured 1 "$@"; }
+wall() { measured 2 "$@"; }
+rss() { measured 3 "$@"; }
 discs() { echo $((2 * $1 * $1 - 1)); }
 steps_for() { # enough for a second or so
   case $1 in 25) echo 20000 ;; 100) echo 1500 ;; 316) echo 150 ;; *) echo 30 ;; esac
@@ -72,7 +88,7 @@ dem() {
   put triad "$("$BENCH/triad" | cut -d' ' -f1)"
 }
 memory() { # shellcheck disable=SC2046
-  put memory "$(rss $(panel 707 2 -fluid none) | awk '{ print $1 * 1024 / 999697 }')"
+  put memory "$(rss $(panel 707 2 -fluid none) | awk 'NF { print $1 * 1024 / 999697 }')"
 }
 case1() {
   put implicit "$(cpu "$POROGRAIN" -options_file "$options/panel_case1_ns.opts" -output run.h5)"
@@ -82,6 +98,19 @@ case1() {
   put paper "$(cpu "$POROGRAIN" -options_file "$options/panel_case1_ns_paper.opts" -output run.h5)"
   put darcy "$(cpu "$POROGRAIN" -options_file "$options/panel_case1_darcy.opts" -pressure explicit -fluid_every 1 -dt 1e-6 -output run.h5)"
 }
+# Largest difference of the load, water in every 50th step against every step, up to the peak and over it.
+curve() {
+  local every
+  for every in 1 50; do
+    cpu "$POROGRAIN" -options_file "$options/panel_case1_ns.opts" -options_file "$options/solvers/cg-icc.opts" -fluid_every $every \
+      -panel_displacement 6.5e-4 -history_every 1e-4 -output curve$every.h5 >/dev/null || return 0
+  done
+  put curve "$(awk -F, '
+    FNR == 1 { for (i = 1; i <= NF; i++) { split($i, part, " "); at[part[1]] = i } next }
+    NR == FNR { f[FNR] = $at["load"]; if (f[FNR] > peak) { peak = f[FNR]; last = FNR } next }
+    FNR <= last { d = $at["load"] - f[FNR]; if (d < 0) d = -d; if (d > most) most = d }
+    END { if (peak) printf "%.3g", 100 * most / peak }' curve1.csv curve50.csv)"
+}
 pressure() { # kept preconditioners over consecutive steps of Case I
   local w s k files
   for w in 25 316; do
@@ -89,14 +118,14 @@ pressure() { # kept preconditioners over consecutive steps of Case I
     [ "$w" = 25 ] || s=8
     "$POROGRAIN_STUDY" -study stepping -options_file "$options/panel_case1_ns.opts" -panel_columns "$w" \
       -panel_rows $((2 * w + 1)) -study_solvers "$options/solvers/all.txt" -study_only cg-icc,cg-hypre,cg-hypre-oneway,cg-cholmod,cg-cholesky \
-      -study_steps $s -study_output stepping >/dev/null 2>&1
+      -study_steps $s -study_output stepping >/dev/null 2>&1 || { echo "failed: the study of $w columns" | tee -a failures >&2 && continue; }
     for k in icc hypre hypre-oneway cholmod cholesky; do
       put "$k$w" "$(awk -F, -v s="cg-$k" '$1 == s { print $12 }' stepping.csv)"
     done
     rm -f dump*
     "$POROGRAIN" -options_file "$options/panel_case1_ns.opts" -panel_columns "$w" -panel_rows $((2 * w + 1)) \
       -panel_displacement "$(awk -v s=$s 'BEGIN { print s * 6.18e-6 }')" -output run.h5 -pressure_dump dump -pressure_dump_every 1 \
-      >/dev/null 2>&1
+      >/dev/null 2>&1 || { echo "failed: the run that dumps systems, $w columns" | tee -a failures >&2 && continue; }
     files=$(ls dump* | grep -v info | sort | head -60 | paste -sd,)
     put "plain$w" "$("$BENCH/plain_petsc" -f "$files" -pc_type hypre 2>/dev/null | cut -d' ' -f1)"
     put "plainicc$w" "$("$BENCH/plain_petsc" -f "$files" -pc_type icc 2>/dev/null | cut -d' ' -f1)"
@@ -124,13 +153,13 @@ ranks() { # shellcheck disable=SC2046
 }
 million() { # shellcheck disable=SC2046
   put million "$(rss $mpiexec -n 2 $(panel 707 100 -options_file quiet.opts -fluid_every 10) |
-    awk '{ print 2 * $1 / 1048576 }')" # of the larger of two ranks
+    awk 'NF { print 2 * $1 / 1048576 }')" # of the larger of two ranks
   put balance "$($mpiexec -n 2 $(panel 707 20 -options_file quiet.opts -fluid_every 10) |
     sed -n 's/.*at most \([0-9.]*\) of the mean number of discs.*/\1/p')"
 }
 
 for ((round = 0; round < rounds; round++)); do
-  for part in dem memory panel pressure assembly ranks million; do
+  for part in dem memory panel curve pressure assembly ranks million; do
     wants $part || continue
     echo "round $((round + 1)): $part" >&2
     if [ $part = panel ]; then case1; else $part; fi
@@ -152,6 +181,7 @@ row memory "memory, dry, 999697 discs" "bytes/disc" "<= 500"
 row implicit "Case I to 1.2 cm, N-S, implicit (M = 50, hypre)" "CPU s" "<= 8.5"
 row implicit_icc "the same with cg-icc.opts" "CPU s" "<= 8.5"
 row implicit_oneway "the same with cg-hypre-oneway.opts" "CPU s" "<= 8.5"
+row curve "its load curve against M = 1, to the peak" "% of the peak" "<= 2"
 row explicit "the same, explicit sweep every step, dt 1e-6" "CPU s" "<= 40"
 row paper "panel_case1_ns_paper.opts (explicit, dt 1e-6)" "CPU s" "<= 40"
 row darcy "Case I, Darcy, explicit sweep every step, dt 1e-6" "CPU s" "<= 0.6 x" explicit "N-S"
@@ -172,3 +202,7 @@ row dry4 "4 ranks against 1, 199711 discs, dry" "disc-steps/wall s" - dry1 "1 ra
 row ns4 "4 ranks against 1, 199711 discs, N-S implicit" "disc-steps/wall s" - ns1 "1 rank"
 row million "999697 discs, N-S implicit, 2 ranks, 100 steps" "GiB" "<= 3"
 row balance "the same, 20 steps: most discs on a rank" "of the mean" "<= 1.1"
+if [ -s failures ]; then
+  echo "bench.sh: $(wc -l <failures) runs failed, their rows are left out or rest on fewer runs" >&2
+  exit 1
+fi
