@@ -329,7 +329,7 @@ PetscErrorCode PgLiquidRun(PgLiquid l, const char output[])
                         l->run.steps, (double)l->run.end));
   PetscCall(PgWcsphView(l->wcsph, PETSC_VIEWER_STDOUT_(l->comm)));
   err = TimeLoop(l);
-  PgCaseRunStop(&l->run);
+  PgEndingStop();
   if (!err && output[0]) PetscCall(PetscPrintf(l->comm, "wrote %s\n", output));
   if (!err) PetscCall(Summary(l));
   PetscCall(PgOutputDestroy(&l->run.output));

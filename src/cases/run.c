@@ -67,12 +67,6 @@ PetscErrorCode PgCaseRunGoesOn(PgCaseRun *run, PetscInt step, PetscBool *on)
   PetscFunctionReturn(0);
 }
 
-void PgCaseRunStop(PgCaseRun *run)
-{
-  (void)run;
-  PgEndingStop();
-}
-
 PetscErrorCode PgCaseRunTell(const PgCaseRun *run, PetscInt step, PetscReal time, const char file[], PetscInt held)
 {
   PetscFunctionBeginUser;

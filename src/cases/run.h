@@ -19,7 +19,7 @@ typedef struct {
 #define PG_CASE_UNEVEN 1e-6
 
 /* Reads the options; dt and end keep what they had where nothing is said. `more`, which may be NULL, reads further ones
-   that belong to results. Collective, as all that follow but PgCaseRunDue() and PgCaseRunStop(). */
+   that belong to results. Collective, as all that follow but PgCaseRunDue(). */
 typedef struct {
   const char *dt, *history; /* what the help says of their defaults */
   PetscErrorCode (*more)(void *context, PetscOptionItems *PetscOptionsObject);
@@ -33,14 +33,13 @@ typedef struct {
   PetscBool row, line, snapshot;
 } PgCaseRunDueNow;
 PETSC_INTERN PgCaseRunDueNow PgCaseRunDue(const PgCaseRun *run, PetscInt step);
-/* The clock starts, and signals are kept; `begun` steps have been done before. */
+/* The clock starts, and signals are kept until PgEndingStop(), which follows also when the run has failed; `begun` steps
+   have been done before. */
 PETSC_INTERN PetscErrorCode PgCaseRunStart(PgCaseRun *run, PetscInt begun);
 /* After each step: whether another one follows, or the run has reached its end, or an earlier one. */
 PETSC_INTERN PetscErrorCode PgCaseRunGoesOn(PgCaseRun *run, PetscInt step, PetscBool *on);
 /* Results of particles. */
 PETSC_INTERN PetscErrorCode PgCaseRunWrite(PgCaseRun *run, PgCaseRunDueNow due, PetscReal time, const PetscReal row[]);
-/* Signals are those of the system again, also when the run has failed. Not collective. */
-PETSC_INTERN void PgCaseRunStop(PgCaseRun *run);
 /* When the run has ended before its time: how to go on, and the status. As PgEndingTell() has it. */
 PETSC_INTERN PetscErrorCode PgCaseRunTell(const PgCaseRun *run, PetscInt step, PetscReal time, const char file[],
                                           PetscInt held);

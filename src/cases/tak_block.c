@@ -384,7 +384,7 @@ static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
   PetscCall(PgStagePop());
   for (PetscInt k = 0; k < ZONES; k++) PetscCall(PgFemView(b->zone[k].fem, PETSC_VIEWER_STDOUT_(comm)));
   err = TimeLoop(b);
-  PgCaseRunStop(&b->tak.run);
+  PgEndingStop();
   if (!err && output[0]) PetscCall(PetscPrintf(comm, "wrote %s\n", output));
   if (!err) PetscCall(PgTakSummary(&b->tak, &b->solves));
   PetscFunctionReturn(err);

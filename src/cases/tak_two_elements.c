@@ -247,7 +247,7 @@ static PetscErrorCode RunCase(MPI_Comm comm, void *context, const char output[])
   PetscCall(PgTakStart(&c->tak, output, COLUMNS, columns, &all, NULL, NULL));
   PetscCall(PgStagePop());
   err = TimeLoop(c);
-  PgCaseRunStop(&c->tak.run);
+  PgEndingStop();
   if (!err && output[0]) PetscCall(PetscPrintf(comm, "wrote %s\n", output));
   if (!err) PetscCall(PgTakSummary(&c->tak, NULL));
   PetscFunctionReturn(err);

@@ -329,7 +329,7 @@ PetscErrorCode PgUpRun(PgUp up, const char output[])
   PetscCall(PgStagePop());
   PetscCall(PgFemView(up->fem, PETSC_VIEWER_STDOUT_(up->comm)));
   err = TimeLoop(up);
-  PgCaseRunStop(&up->run);
+  PgEndingStop();
   if (!err && output[0]) PetscCall(PetscPrintf(up->comm, "wrote %s\n", output));
   if (!err) PetscCall(Summary(up));
   PetscCall(PgOutputDestroy(&up->run.output));

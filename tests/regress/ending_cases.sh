@@ -3,15 +3,6 @@
 # with a checkpoint from which it goes on as if it had not been stopped, the liquid and bodies in it with whole results.
 . "$SOURCE_DIR/tests/support/regress.sh"
 
-# await FILE LINES: the run has got so far
-await() {
-  for _ in $(seq 600); do
-    if [ -e "$1" ] && [ "$(wc -l <"$1")" -gt "$2" ]; then return; fi
-    sleep 0.1
-  done
-  fail "no progress in $1"
-}
-
 # ended SIGNAL FILE HOW: the run that was started last gets it after some rows, ends with 5 and says so
 ended() {
   local status=0

@@ -5,7 +5,7 @@
 
 panel="-case panel -panel_columns 20 -dt 2e-6 -dem_local_damping 0.7 -end_time 0.1 -history_every 1e-4"
 
-await() {
+await_file() {
   for _ in $(seq 600); do
     if [ -e "$1" ]; then return; fi
     sleep 0.05
@@ -19,7 +19,7 @@ begin() {
   shift
   # shellcheck disable=SC2086
   "$POROGRAIN" $panel -checkpoint "$file" -checkpoint_every 2e-3 "$@" >run.log 2>run.err &
-  await "$file"
+  await_file "$file"
 }
 
 # ends STATUS PATTERN
@@ -54,7 +54,7 @@ loadable() {
 mkdir place
 begin place/run.pgc
 rm -f place/run.pgc # while it is renamed there is none for a moment
-await place/run.pgc
+await_file place/run.pgc
 until rm -r place 2>/dev/null; do [ -e place ] || break; done # a new file may come in the middle
 # at which of its calls a run notices depends on the moment: creating, writing, sealing
 ends 4 ".*checkpoint 'place/run.pgc(.tmp)?': .*No such file or directory"
@@ -95,7 +95,7 @@ rm -f disk/*
 # shellcheck disable=SC2086
 "$MPIEXEC" -n 2 "$POROGRAIN" $panel -output disk/run.h5 -output_every 4e-4 -checkpoint run2.pgc -checkpoint_every 3e-4 \
   >run.log 2>run.err &
-await run2.pgc
+await_file run2.pgc
 head -c 100m /dev/zero >disk/filler 2>/dev/null || true
 ends 4 "cannot write .*result file 'disk/run.h5': No space left on device"
 rm disk/filler

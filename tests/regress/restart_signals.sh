@@ -5,15 +5,6 @@
 # Long enough to be signalled; the snapshots are those of a run that is never stopped.
 run="-case panel -panel_columns 40 -dem_local_damping 0.7 -end_time 0.1 -output_every 4e-4 -history_every 2e-5"
 
-# The run has begun when its history has rows.
-await() {
-  for _ in $(seq 300); do
-    if [ -e "$1" ] && [ "$(wc -l <"$1")" -gt "$2" ]; then return; fi
-    sleep 0.1
-  done
-  fail "no progress in $1"
-}
-
 # ends_with SIGNAL WORDS: sends the signal to a run and checks its end.
 ends_with() {
   local status=0

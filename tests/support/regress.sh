@@ -130,3 +130,12 @@ expect_same_results() {
     }
   done
 }
+
+# await FILE LINES: waits for a run in the background until its history has more lines than that; fails after a minute
+await() {
+  for _ in $(seq 600); do
+    if [ -e "$1" ] && [ "$(wc -l <"$1")" -gt "$2" ]; then return; fi
+    sleep 0.1
+  done
+  fail "no progress in $1"
+}
